@@ -72,7 +72,7 @@ RunSettings settings_of(const AnimateArguments& arguments) {
 }
 
 FinishedWork finished_frames(const AnimateArguments& arguments, const RunSettings& settings) {
-  FinishedWork finished(kept_folder(arguments.output), maker_for(settings));
+  FinishedWork finished(finished_work_folder(arguments.output), maker_for(settings));
   if (arguments.fresh) finished.clear();
   return finished;
 }

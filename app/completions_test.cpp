@@ -62,7 +62,7 @@ TEST(Completions, AnotherShellIsAnError) {
   }
 }
 
-// What bash itself offers while a command line is being typed.
+// The completions that bash offers for a partial command line.
 TEST(Completions, BashPassesTheWordsUpToTheCursor) {
   const std::string folder = test::fresh_folder().string() + "/";
   std::ofstream(folder + "footprint.bash") << completion_script("bash");

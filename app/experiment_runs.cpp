@@ -152,7 +152,7 @@ std::vector<Assigned> share_of(const std::vector<Assigned>& all, const Shard& sh
 
 }  // namespace
 
-fs::path kept_folder(const fs::path& output) { return output / "kept"; }
+fs::path finished_work_folder(const fs::path& output) { return output / "kept"; }
 
 std::string reuse_text(const FinishedWork& finished) {
   return fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)",

@@ -13,9 +13,9 @@
 namespace footprint {
 
 /// The folder below a run's output folder in which its finished work is stored.
-[[nodiscard]] std::filesystem::path kept_folder(const std::filesystem::path& output);
+[[nodiscard]] std::filesystem::path finished_work_folder(const std::filesystem::path& output);
 
-/// How much of an earlier run was reused, and how to measure it again.
+/// A message on the parts of an earlier run that were reused, with the option to measure again.
 [[nodiscard]] std::string reuse_text(const FinishedWork& finished);
 
 /// The program and the OpenGL renderer that measure a run with these settings. Errors (machine): no OpenGL.

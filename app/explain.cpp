@@ -144,10 +144,10 @@ std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettin
   for (const Effect effect : all_effects()) {
     if (!has(stage.effects(), effect)) continue;
     measured.push_back(effect);
-    const EffectSet kept = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
+    const EffectSet remaining = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
     const Progress preparing = parts.next(1, "preparing: ");
     preparing(effect_name(effect), 0.0);
-    variants.push_back(make_variant(stage, run, kept, view.size, preparing));
+    variants.push_back(make_variant(stage, run, remaining, view.size, preparing));
   }
   std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
   for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* film_file = "images/film.mp4";
-constexpr int frames_a_second = 30;
+constexpr int frames_per_second = 30;
 
 // The pattern of all frames that the picture of frame 0 is of: "images/toksvig_%04d.png".
 std::string pattern_of(const std::string& first) {
@@ -40,7 +40,7 @@ std::vector<std::string> film_arguments(const Results& animation) {
   const std::vector<std::string> columns = columns_of(animation);
   std::string inputs;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    arguments.insert(arguments.end(), {"-framerate", fmt::format("{}", frames_a_second), "-i", columns[i]});
+    arguments.insert(arguments.end(), {"-framerate", fmt::format("{}", frames_per_second), "-i", columns[i]});
     inputs += fmt::format("[{}:v]", i);
   }
   const std::string layout =
@@ -78,7 +78,7 @@ std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs
   if (exit_code == 0 && fs::is_regular_file(folder / film_file)) return film_file;
   throw Error(ErrorKind::machine, "--video",
               fmt::format("ffmpeg ended with {}: {}", exit_code, words.empty() ? "no message" : words.substr(0, 400)),
-              "leave --video out: the frames are kept, and are not rendered again");
+              "leave --video out: finished frames are stored, and are not rendered again");
 }
 
 }  // namespace footprint

@@ -44,7 +44,7 @@ class ScratchFolder {
   fs::path path_;
 };
 
-// The file that tells Vulkan's loader where Mesa's driver for AMD is: that of VK_DRIVER_FILES if it is set.
+// The file with the path of Mesa's driver for AMD, for Vulkan's loader: that of VK_DRIVER_FILES if it is set.
 fs::path driver_file() {
   if (const char* own = std::getenv("VK_DRIVER_FILES"); own != nullptr && *own != 0) {
     if (fs::exists(own)) return own;

@@ -108,7 +108,7 @@ RequestedExperiments requested_by(const Part& first, const RunOptions& options) 
 // Copies the finished work of all parts.
 void take_all(const std::vector<Part>& parts, const FinishedWork& finished) {
   for (const Part& part : parts) {
-    const FinishedWork from(kept_folder(part.folder), finished.maker());
+    const FinishedWork from(finished_work_folder(part.folder), finished.maker());
     for (const std::string& key : part.file.keys) finished.take(key, from);
   }
 }
@@ -116,7 +116,7 @@ void take_all(const std::vector<Part>& parts, const FinishedWork& finished) {
 void merge_animation(const std::vector<Part>& parts, const std::string& output) {
   if (!is_made_by_this_program(parts.front().file.maker))
     refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
-  const FinishedWork finished(kept_folder(output), parts.front().file.maker, true);
+  const FinishedWork finished(finished_work_folder(output), parts.front().file.maker, true);
   take_all(parts, finished);
   write_and_print_animation(output, [&](const fs::path& folder) {
     return joined_animation(finished, parts.front().file.fingerprint, folder);
@@ -127,7 +127,7 @@ void merge(const MergeArguments& arguments) {
   const std::vector<Part> parts = parts_of(arguments.parts);
   if (parts.front().file.kind == PartKind::animation) return merge_animation(parts, arguments.output);
   const RequestedExperiments requested = requested_by(parts.front(), arguments.run);
-  const FinishedWork finished(kept_folder(arguments.output), parts.front().file.maker, true);
+  const FinishedWork finished(finished_work_folder(arguments.output), parts.front().file.maker, true);
   take_all(parts, finished);
   std::optional<Error> failed;
   run_and_print(requested, arguments.output, finished, arguments.quiet, {.experiment = [&](const Results& results) {

@@ -105,7 +105,7 @@ void run_ndf(const NdfArguments& arguments) {
     write_message(fmt::format(
         "the grid of directions is too coarse for {}: the exact NDF integrates to {:.4g} instead of {:.4g}; "
         "give a larger --resolution",
-        results.lobe, results.truth.energy, results.truth.expected_energy));
+        results.lobe, results.exact.energy, results.exact.expected_energy));
   }
   write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (path / results.strip).string()));
 }

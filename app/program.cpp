@@ -110,7 +110,7 @@ std::string requested_work(const CLI::App& command) {
 // The error of a subcommand that threw std::bad_alloc: what it was working on, how large that is, and the memory taken.
 Error memory_error(const CLI::App& app) {
   return {ErrorKind::machine, requested_work(innermost(app)), fmt::format("out of memory: {}", taken_memory_text()),
-          "ask for a smaller --size or smaller maps, free memory, or raise its limit"};
+          "give a smaller --size or smaller maps, free memory, or raise its limit"};
 }
 
 // The error for what the parser threw. An unknown subcommand or option comes before what is missing because of it.

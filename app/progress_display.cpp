@@ -1,4 +1,4 @@
-// Redraws a bar at most ten times a second, or writes a line every two seconds and at the end of a longer stage.
+// Redraws a bar at most ten times per second, or writes a line every two seconds and at the end of a longer stage.
 #include "app/progress_display.hpp"
 
 #include <fmt/format.h>

@@ -14,7 +14,7 @@ namespace footprint {
 enum class ProgressStyle {
   quiet,  ///< not at all
   lines,  ///< a line at most every two seconds and one at the end of each stage that took half a second
-  bar,    ///< one line, redrawn at most ten times a second, cleared at the end
+  bar,    ///< one line, redrawn at most ten times per second, cleared at the end
 };
 
 /// The style for standard error: a bar if it is a terminal that can redraw a line, else lines.

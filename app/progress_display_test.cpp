@@ -72,7 +72,7 @@ TEST_F(ProgressDisplayTest, BarIsRedrawnTenTimesASecondAndCleared) {
   EXPECT_EQ(written_.back(), "\r\x1b[K");
 }
 
-// A stage that is slower than those before it: its own rate tells the time left, which counts down.
+// A stage that is slower than those before it: its own rate gives the time left, which counts down.
 TEST_F(ProgressDisplayTest, TheTimeLeftNeverCountsUpWithinAStage) {
   auto shown = display(ProgressStyle::lines);
   shown.report("quick", 0.0);

@@ -100,7 +100,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
                              .gpu_compiler = amd_compiler()};
   set_max_cost(arguments.max_cost, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const FinishedWork finished(kept_folder(arguments.output), maker_for(settings.run));
+  const FinishedWork finished(finished_work_folder(arguments.output), maker_for(settings.run));
   if (arguments.fresh) finished.clear();
   const auto [result, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{

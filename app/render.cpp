@@ -47,7 +47,7 @@ struct RenderArguments {
 double distance_factor(double given, const std::optional<std::size_t>& frame, const Scene& scene) {
   if (!frame) return given;
   if (*frame < scene.distances.size()) return scene.distances[*frame];
-  throw Error(ErrorKind::usage, "--frame", fmt::format("there is no frame {}", *frame),
+  throw Error(ErrorKind::usage, "--frame", fmt::format("frame {} does not exist", *frame),
               fmt::format("the scene's zoom path has frames 0 to {}", scene.distances.size() - 1));
 }
 

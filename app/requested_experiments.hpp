@@ -13,7 +13,7 @@ namespace footprint {
 
 /// Which experiments, and how.
 struct ExperimentRequest {
-  std::string experiment;  ///< a name, or a path; a folder stands for all experiments in it
+  std::string experiment;  ///< a name, or a path; a folder means all experiments in it
   std::string only;        ///< a regular expression that the names of members must match; empty: all are run
   bool quick = false;
   std::function<void(RunSettings& run)> apply;  ///< the command line's settings over an experiment's own
@@ -43,7 +43,7 @@ struct RequestedExperiments {
   std::string fingerprint;
 };
 
-/// Errors (usage): no such experiment; of its files; members that have members; --only is no regular expression, or
+/// Errors (usage): no such experiment; of its files; members that have members; --only is not a regular expression, or
 /// leaves nothing.
 [[nodiscard]] RequestedExperiments requested_experiments(const ExperimentRequest& request);
 

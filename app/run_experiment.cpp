@@ -119,7 +119,7 @@ RequestedExperiments requested(const ExperimentArguments& arguments) {
                                 .apply = [&](RunSettings& run) { arguments.run.apply(run); }});
 }
 
-// What a further process does: times the frames of one member.
+// The job of a timing process: times the frames of one member.
 void take_times(const ExperimentArguments& arguments) {
   for (const Experiment& experiment : requested(arguments).experiments) {
     if (experiment.full_name() != arguments.timing_member) continue;
@@ -130,7 +130,7 @@ void take_times(const ExperimentArguments& arguments) {
 }
 
 FinishedWork finished_work(const RequestedExperiments& requested, const ExperimentArguments& arguments) {
-  FinishedWork finished(kept_folder(arguments.output), maker_for(requested.experiments.front().run));
+  FinishedWork finished(finished_work_folder(arguments.output), maker_for(requested.experiments.front().run));
   if (arguments.fresh) finished.clear();
   return finished;
 }

@@ -62,7 +62,7 @@ struct ScoreArguments {
   bool quiet = false;
 };
 
-// What images are compared with.
+// The reference of a score.
 struct Reference {
   Image picture;
   Image standard_error;  // empty: not known

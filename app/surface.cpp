@@ -81,7 +81,7 @@ void run_surface(const SurfaceArguments& arguments) {
   const auto side = static_cast<std::uint64_t>(settings.resolution);
   constexpr std::uint64_t texel_bytes = (4 + 3) * sizeof(float);  // the map, and its written channels
   require_memory(frame_bytes(side, side, texel_bytes), fmt::format("a map of {} x {} texels", side, side),
-                 "ask for a smaller --resolution, or free memory");
+                 "give a smaller --resolution, or free memory");
   Image normals = normals_only(surface_normals(surface, settings));
   save(path, std::move(normals));
   write_output(fmt::format("{}\n", path.string()));

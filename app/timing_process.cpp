@@ -24,7 +24,7 @@ std::vector<std::string> own_arguments() {
   return arguments;
 }
 
-// What the process said was wrong, as this process's own error.
+// The error that the process printed, as this process's own.
 Error failure_of(int exit_code, std::string text) {
   constexpr std::string_view prefix = "footprint: ";
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -44,7 +44,7 @@ FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path&
   arguments.insert(arguments.end(), {timing_file_option, file.string(), "--quiet"});
   ChildProcess child(
       {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = errors, .folder = {}},
-      Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "ask for fewer --processes"));
+      Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "give fewer --processes"));
   const int exit_code = child.wait(tick);
   if (exit_code != 0) throw failure_of(exit_code, file_text(errors));
   FrameTimes times = nlohmann::json::parse(file_text(file)).get<FrameTimes>();

@@ -13,7 +13,7 @@ namespace footprint {
 /// The option that makes a command take times, write them to its file and do nothing else.
 inline constexpr const char* timing_file_option = "--timing-file";
 
-/// Of `run` and `check`: the member of an experiment that such a process times.
+/// The member of an experiment that such a process of `run` or `check` times.
 inline constexpr const char* timing_member_option = "--timing-member";
 
 /// Weight of the main process in the progress of a run; a further process has 1.

@@ -16,7 +16,7 @@
 namespace footprint::bench {
 namespace {
 
-// Of the process so far, in units of 1e9 bytes.
+// The peak memory of the process so far, in units of 1e9 bytes.
 double most_gigabytes() {
   rusage usage{};
   (void)getrusage(RUSAGE_SELF, &usage);
@@ -41,7 +41,7 @@ Bake quickest(const MethodSpec& spec, const Scene& scene, const EffectSet& effec
   return best;
 }
 
-void hold(const std::string& name, double value, double most, const char* unit) {
+void check_limit(const std::string& name, double value, double most, const char* unit) {
   if (most <= 0.0 || value <= most) return;
   throw Error(ErrorKind::check, name, fmt::format("its bake took {:.3g} {}, {:.3g} are allowed", value, unit, most));
 }
@@ -58,8 +58,8 @@ void print_bake_table(const Scene& scene, const std::string& methods, int rounds
                static_cast<double>(best.bytes) * 1e-6, gigabytes);
     (void)std::fflush(stdout);
     text.clear();
-    hold(spec.text, best.seconds, limits.seconds, "s");
-    hold(spec.text, gigabytes, limits.gigabytes, "GB");
+    check_limit(spec.text, best.seconds, limits.seconds, "s");
+    check_limit(spec.text, gigabytes, limits.gigabytes, "GB");
   }
 }
 

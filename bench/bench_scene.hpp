@@ -1,4 +1,4 @@
-// What frame times are taken on: methods over Khronos' ClearCoatTest, or another scene, at 512 x 512, on one context.
+// The set-up of frame times: methods over Khronos' ClearCoatTest, or another scene, at 512 x 512, on one context.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline constexpr std::uint64_t reference_seed = 1;
 /// installed, after a line on stderr that says so. Errors: those of load_scene.
 [[nodiscard]] std::optional<Scene> load_bench_scene(const std::string& name);
 
-/// What footprint_bench draws with at 512 x 512: `direct` and the methods of a list, commas between; of an empty one
+/// The frames of footprint_bench at 512 x 512: `direct` and the methods of a comma-separated list; of an empty one
 /// all whose precompute takes no seconds. Errors (usage): unknown method or option.
 [[nodiscard]] RunSettings bench_settings(const std::string& methods);
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* surface_name = "scratched_metal";
 
-// A plane of so many maps a side, one a metre, under a camera and a light that are infinitely far. The map lies turned:
-// no footprint ends where a node of a tree does.
+// A plane of so many maps per side, one per metre, under a camera and a light that are infinitely far. The map is
+// rotated, so that no footprint ends at the border of a tree's node.
 Scene repeated_map(int resolution, int maps) {
   Scene scene = load_bench_scene("scratches").value();
   const Surface& surface = find_surface(all_surfaces(), surface_name);
@@ -51,7 +51,7 @@ Scene repeated_map(int resolution, int maps) {
   return scene;
 }
 
-// Of the methods at one width of the camera.
+// The times and lookups of the methods at one width of the camera.
 struct Row {
   std::vector<double> ms, lookups;
 };

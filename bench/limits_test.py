@@ -35,9 +35,9 @@ class LimitsTest(unittest.TestCase):
 
     def test_a_footprint_that_is_dearer_than_others_is_refused(self):
         sizes = ("--footprints", "1", "--resolution", "4", "--most-ratio")
-        kept = bench(*sizes, "1000")
-        self.assertEqual(kept.returncode, 0, kept.stderr)
-        self.assertEqual(len(re.findall(r"[0-9.]+ lookups", kept.stdout)), 2 * 3)  # `direct` too, 1, 4 and 16 texels
+        within = bench(*sizes, "1000")
+        self.assertEqual(within.returncode, 0, within.stderr)
+        self.assertEqual(len(re.findall(r"[0-9.]+ lookups", within.stdout)), 2 * 3)  # `direct` too, 1, 4 and 16 texels
         refused = bench(*sizes, "1.0001")
         self.assertEqual(refused.returncode, 1, refused.stdout)
         self.assertIn("times the median, 1 are allowed", refused.stderr)

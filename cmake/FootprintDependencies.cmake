@@ -1,4 +1,4 @@
-# The libraries that Footprint stands on, all from Debian packages (scripts/packages.txt).
+# The libraries that Footprint uses, all from Debian packages (scripts/packages.txt).
 find_package(Threads REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(Imath CONFIG REQUIRED)

@@ -6,20 +6,20 @@ set(FOOTPRINT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 set(FOOTPRINT_PRECOMPILED_OPTIONS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 list(TRANSFORM FOOTPRINT_PRECOMPILED_OPTIONS REPLACE "(.+)" "$<$<CXX_COMPILER_ID:GNU>:\\1>")
 
-# footprint_reuse_headers(TARGET NAME): TARGET starts from what footprint_precompile(NAME) read; nothing where there is no
-# such library, as in a project that uses this build folder.
+# footprint_reuse_headers(TARGET NAME): TARGET starts from what footprint_precompile(NAME) read; nothing if the library
+# is missing, as in a project that uses this build folder.
 function(footprint_reuse_headers target name)
   if(NOT TARGET ${name})
     return()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${name})
   target_link_libraries(${target} PRIVATE fmt::fmt)  # its macros are part of what was read
-  # ccache preprocesses a source: with this the result names the precompiled file in place of all that it holds.
+  # ccache preprocesses a source: with this the result names the precompiled file instead of its content.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> ${FOOTPRINT_PRECOMPILED_OPTIONS})
 endfunction()
 
-# Eight sources are compiled at once, as one: reading headers and instantiating what they hold takes a source longer than
-# what is written over them. Who works on one of them sets FOOTPRINT_UNITY=OFF and waits for that one alone. Names of
+# Eight sources are compiled at once, as one: reading and instantiating headers takes longer than
+# compiling the source itself. Set FOOTPRINT_UNITY=OFF while you edit one of them, so that it is compiled separately. Names of
 # sources united must differ: an anonymous namespace is then one for all of them, which GCC takes for a header's.
 # footprint_unite(TARGET ...): such targets; all libraries and tests are.
 function(footprint_unite)
@@ -30,7 +30,7 @@ function(footprint_unite)
 endfunction()
 
 # footprint_compile_fast(TARGET ...): of sources that read and write text and do no more: CLI11's, toml++'s and nlohmann's
-# inline code, of which each object holds its own, takes the compiler half as long again at -O3.
+# inline code, of which each object has a copy, takes the compiler half as long again at -O3.
 function(footprint_compile_fast)
   foreach(target IN LISTS ARGN)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
@@ -47,7 +47,7 @@ function(footprint_add_library name)
   set_property(GLOBAL APPEND PROPERTY FOOTPRINT_LIBRARIES ${name})
 endfunction()
 
-# What a test program may take: instrumented bakes run ten times slower.
+# The time limit of a test program: instrumented bakes run ten times slower.
 set(FOOTPRINT_TEST_SECONDS 300)
 if(FOOTPRINT_SANITIZE)
   set(FOOTPRINT_TEST_SECONDS 3000)
@@ -55,7 +55,7 @@ endif()
 
 # footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry. It draws hundreds of programs
 # once each, so llvmpipe's compiler leaves its optimisation passes out, which takes a tenth to two fifths off where no
-# program is kept from an earlier run; other drivers do not know the word. The end-to-end tests draw as users do.
+# program is cached by an earlier run; other drivers do not know the word. The end-to-end tests draw as users do.
 function(footprint_add_test name)
   if(NOT FOOTPRINT_TESTS)
     return()
@@ -72,7 +72,7 @@ endfunction()
 
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in
 # namespace footprint::embedded (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run
-# time. A file that is added is in the table without another line; where none matches there is no table.
+# time. A file that is added is in the table without another line; without a match the table is not made.
 function(footprint_embed target symbol)
   file(GLOB texts CONFIGURE_DEPENDS ${ARGN})
   if(NOT texts)

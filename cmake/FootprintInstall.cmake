@@ -1,4 +1,4 @@
-# What `cmake --install` and CPack put under a prefix, in two components:
+# The files that `cmake --install` and CPack put under a prefix, in two components:
 #   runtime      the program, scenes, experiments, published figures, documents, manual pages, shell completions
 #   development  headers, libraries and find_package(Footprint) for methods out of the tree
 include(GNUInstallDirs)

@@ -1,7 +1,7 @@
 # footprint_package(): what CPack makes of the installed tree, by `scripts/package`: footprint_VERSION_amd64.deb, with
 # its dependencies worked out by dpkg-shlibdeps, and footprint-dev with what methods out of the tree are built from.
 function(footprint_package)
-  # What is opened at run time, which no linker sees, and what is only read.
+  # Libraries that are opened at run time, which no linker sees, and data.
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
       "libegl1, libegl-mesa0 | libegl-vendor, libgl1-mesa-dri | libgl1, fonts-dejavu-core")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "assimp-testmodels, glmark2-data, blender-data, libvulkan1, mesa-vulkan-drivers")

@@ -1,6 +1,6 @@
-# Precompiled headers: the standard library, GLM and fmt are read once a build and not once a source, GTest too for tests.
-# A source keeps its own includes all the same; a build with FOOTPRINT_PRECOMPILE=OFF, and clang-tidy, hold it to them.
-option(FOOTPRINT_PRECOMPILE "Read the headers of the standard library, GLM, fmt and GTest once a build" ON)
+# Precompiled headers: the standard library, GLM and fmt are read once per build and not once per source, GTest too for tests.
+# A source keeps its own includes all the same; a build with FOOTPRINT_PRECOMPILE=OFF, and clang-tidy, check them.
+option(FOOTPRINT_PRECOMPILE "Read the headers of the standard library, GLM, fmt and GTest once per build" ON)
 
 # footprint_precompile(NAME OPTIONS ... HEADERS ... LIBRARIES ...): an object library whose headers others reuse
 # (footprint_reuse_headers of FootprintHelpers.cmake); they are compiled with the same options.

@@ -1,5 +1,5 @@
-# Targets that run where there is no GL at all: that none of them links footprint_gl, at any remove, is held when the
-# build is configured.
+# Targets that run without GL. Configuring the build checks that none of them links footprint_gl, directly or
+# indirectly.
 
 # footprint_without_gl(TARGET ...): names such targets.
 function(footprint_without_gl)

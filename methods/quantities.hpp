@@ -1,5 +1,5 @@
-// Figures of a method that no picture shows, which experiments ask for by name. CMake writes the list of the methods
-// that have some: one footprint_add_method line with STUDY a method.
+// Figures of a method that no image shows, for experiments, by name. CMake writes the list of the methods
+// that have some: one footprint_add_method line with STUDY per method.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The methods that this build holds. CMake writes the list: one footprint_add_method line a method.
+// The methods of this build. CMake writes the list: one footprint_add_method line per method.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Starts the program of its own name from wherever this archive was unpacked. The program's own libraries lie in lib/, where it looks for
+# Starts the program of its own name from wherever this archive was unpacked. The program's own libraries are in lib/, where it looks for
 # them itself. A driver brings a C++ runtime of the machine's into the process: the newer of the two must serve both, so
-# the carried one is taken only where the machine has none or an older one. The same holds for libEGL, the drivers' loader.
+# the carried one is taken only where the machine has none or an older one. The same applies to libEGL, the drivers' loader.
 self=$(readlink -f -- "$0")
 here=$(dirname -- "$self")
 fallback=$here/../lib/fallback

@@ -1,4 +1,4 @@
-"""Writes a shared library that has another's name and those of its symbols that are asked for, with nothing behind them:
+"""Writes a shared library that has another's name and the requested ones of its symbols, with nothing behind them:
 functions do nothing and return the address of zeros, data is zero. For libraries that must be there to be loaded and are
 never used: what a library sets up as it is loaded may call them (OpenImageIO asks readers for their version's words, and
 DCMTK for a register of colour models), so they must not trap, and an empty string must come back."""

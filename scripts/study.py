@@ -59,7 +59,7 @@ def load_results(path):
 
 
 def run_footprint(*words, program=PROGRAM, cache=None):
-    """What the program prints; Missing if it fails. `cache` is a folder for bakes instead of the user's own."""
+    """The output of the program; Missing if it fails. `cache` is a folder for bakes instead of the user's own."""
     environment = os.environ | ({"FOOTPRINT_CACHE": str(cache.absolute())} if cache else {})
     done = subprocess.run([program, *map(str, words)], stdout=subprocess.PIPE, text=True, check=False, env=environment)
     if done.returncode != 0:

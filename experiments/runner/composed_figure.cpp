@@ -15,7 +15,7 @@
 namespace footprint {
 namespace {
 
-constexpr int smallest_shown = 300;  // pixels a side that a picture is enlarged to, by whole factors
+constexpr int smallest_shown = 300;  // pixels per side that a picture is enlarged to, by whole factors
 constexpr int frame_width = 2;
 
 struct Rectangle {
@@ -132,7 +132,7 @@ class Composer {
                 "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
   }
 
-  // Where the noise asked for more than `spp`, tile by tile, the mean.
+  // The mean, because the noise may need more samples than `spp` in some tiles.
   std::string samples_text() const {
     const ReferenceInfo& reference = results_.reference;
     if (reference.samples <= reference.spp) return fmt::format("{} spp", reference.spp);

@@ -6,7 +6,7 @@
 namespace footprint {
 namespace {
 
-/// Each pixel holds its own position.
+/// Each pixel stores its own position.
 Image ramp(int width, int height) {
   Image picture(width, height, 3);
   for (int y = 0; y < height; ++y) {

@@ -1,4 +1,4 @@
-// From TOML to an Experiment, every expression held against what the run will have.
+// Reads an Experiment from TOML and checks every expression against what the run will measure.
 #include "experiments/runner/experiment.hpp"
 
 #include <fmt/format.h>
@@ -31,10 +31,10 @@ namespace fs = std::filesystem;
 constexpr NumberRange any_number{-1e300, 1e300};
 constexpr double most_frames = 10000;
 
-// The tables of an experiment that has no members, beside [experiment].
+// The tables of an experiment without members, apart from [experiment].
 const std::vector<std::string> further_tables{"zoom",     "camera",    "reference", "matrix",    "ndf",
                                               "quantity", "published", "claim",     "threshold", "figure"};
-// What presets may hold, and of that what the file may take key by key; the others it takes whole.
+// The tables of presets. A file may take single keys of joined_tables; it takes the others whole.
 const std::vector<std::string> preset_tables{"experiment", "zoom", "camera", "reference", "matrix"};
 const std::vector<std::string> joined_tables{"experiment", "reference", "matrix"};
 const std::vector<std::string> head_keys{"title", "description", "members", "presets"};
@@ -56,13 +56,13 @@ int whole_number(const TomlTable& table, std::string_view key, NumberRange range
   return value ? static_cast<int>(*value) : otherwise;
 }
 
-// The keys of [`name`] that [matrix] gives. Errors (usage): one stands in both.
+// The keys of [`name`] that [matrix] gives. Errors (usage): a key is in both.
 std::vector<std::string> given_by_matrix(const TomlTable& root, const std::optional<TomlTable>& table,
                                          std::string_view name) {
   std::vector<std::string> given;
   for (const std::string& key : matrix_keys_of(root)) {
     if (std::ranges::count(axis_keys(name), key) == 0) continue;
-    if (table && table->has(key)) throw table->error_at(key, "stands in [matrix] too", "give it in one of them");
+    if (table && table->has(key)) throw table->error_at(key, "is also in [matrix]", "give it in one of them");
     given.push_back(key);
   }
   return given;
@@ -89,7 +89,7 @@ void read_zoom(const TomlTable& table, RunSettings& run) {
     throw table.error_at("to", "is where the zoom starts", "let it differ from `from`");
 }
 
-// Every figure that is asked for must be one that the run will have: known before it starts.
+// Refuses figures that the run will not have, before it starts.
 void check_measures(const Expression& expression, const Experiment& experiment) {
   for (const Measure& measure : expression.measures()) check_measure(measure, experiment);
 }

@@ -15,7 +15,7 @@
 
 namespace footprint {
 
-/// What a paper says, as an inequality over the records.
+/// A statement of a paper, as an inequality over the records.
 struct Claim {
   std::string name, text;
   Inequality inequality;
@@ -79,7 +79,7 @@ struct Experiment {
   std::vector<std::filesystem::path>
       members;              ///< files of the experiments that it is made of; with any, all below is unset
   std::vector<Axis> axes;   ///< of a matrix: what its members (members_of_matrix) vary; `run` is the first one's
-  Coordinates coordinates;  ///< of a member of a matrix: where it stands
+  Coordinates coordinates;  ///< of a member of a matrix: its value on each axis
   std::string whole;        ///< of a member of a matrix: the matrix' name
   RunSettings run;          ///< what is compared
   std::string scene_place;  ///< FILE:LINE of what names its scene, or scenes
@@ -107,9 +107,9 @@ struct Experiment {
 /// not exist.
 [[nodiscard]] Experiment read_experiment(const std::filesystem::path& file);
 
-/// What only its scenes tell of an experiment: that they are there, and that their zoom paths have every distance and
-/// frame that is asked for. Errors (usage) name the file and the call or the frame; those of read_scene name the line
-/// that asks for the scene.
+/// Checks what depends on the scenes of an experiment: that they exist, and that their zoom paths have every distance
+/// and frame that it names. Errors (usage) name the file and the call or the frame; those of read_scene name the line
+/// that names the scene.
 void check_against_scenes(const Experiment& experiment);
 
 /// The distances of an experiment: those that it gives, or its scene's. Errors (usage): of its scene.

@@ -30,7 +30,7 @@ class ExperimentFile : public ::testing::Test {
   void SetUp() override {
     write("paper.toml",
           "[[value]]\nfigure = \"Figure 1\"\nmeasure = \"error(toksvig)\"\nvalue = 0.5\n"
-          "[[value]]\nfigure = \"Figure 2\"\nmeasure = \"fps(nobody)\"\nvalue = 7\n");
+          "[[value]]\nfigure = \"Figure 2\"\nmeasure = \"fps(unknown)\"\nvalue = 7\n");
   }
 
   fs::path write(const std::string& name, const std::string& text) const {
@@ -147,7 +147,8 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_TRUE(has(experiment.run.without, Effect::fresnel) && has(experiment.run.without, Effect::cast_shadow));
   EXPECT_EQ(experiment.run.reference.filter, ReferenceFilter::nearest);
   EXPECT_EQ(experiment.run.reference.environment, EnvironmentUse::dense);
-  ASSERT_EQ(experiment.published.size(), 1U);  // that of figure 2 names a method that is not here, and is not asked for
+  ASSERT_EQ(experiment.published.size(),
+            1U);  // that of figure 2 names a method that this build lacks, and is not requested
   EXPECT_EQ(experiment.published[0].value, 0.5);
   ASSERT_EQ(experiment.footprints.size(), 1U);
   EXPECT_EQ(experiment.footprints[0].rect.upper, glm::dvec2(0.25, 0.5));
@@ -161,7 +162,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_FALSE(experiment.figure.rows[0][1].method);
 }
 
-TEST_F(ExperimentFile, AllStandsForEveryMethodButThoseThatAreSlow) {
+TEST_F(ExperimentFile, AllIsEveryMethodExceptSlowOnes) {
   const Experiment experiment = read("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = \"all\"\n");
   const auto slow =
       std::ranges::count_if(all_methods(), [](const Method* method) { return method->info().slow_frame; });
@@ -211,7 +212,7 @@ TEST_F(ExperimentFile, WrongFilesAreRefusedAtTheirLine) {
   expect_complaint(good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 0, 1]\n", "`footprint` in [[ndf]]");
   expect_complaint(
       good + "[[ndf]]\nname = \"a\"\nfootprint = [0, 0, 1, 1]\n[threshold]\n\"ndf_l2(direct, footprint=b)\" = 1\n",
-      "no footprint `b`");
+      "`b` is not a footprint");
   expect_complaint(good + "[figure]\ncrop = [0, 0, 0, 1]\n", "is empty");
   expect_complaint(good + "[figure]\n", "`row` in [figure] is missing");
   expect_complaint(good + "[[figure.row]]\npictures = [{ method = \"tan\" }]\n", "no method `tan`");
@@ -231,13 +232,13 @@ TEST_F(ExperimentFile, TakesQuantitiesThatAMethodHas) {
   expect_complaint(quantity(figure + "parameters = { eta3 = 1 }\n", good), "did you mean `eta");
   expect_complaint(quantity(figure + "parameters = { eta1 = -1 }\n", good), "is not valid");
   expect_complaint(quantity(figure, "quantity(direct, name=q)"), "direct has no figure");
-  expect_complaint(quantity(figure, "quantity(iwasaki_sg, name=r)"), "no quantity `r`");
+  expect_complaint(quantity(figure, "quantity(iwasaki_sg, name=r)"), "`r` is not a quantity");
   expect_complaint(quantity(figure, "quantity(iwasaki_sg)"), "does not say which");
   expect_complaint(quantity(figure, "error(iwasaki_sg, name=q)"), "selects nothing of error");
   expect_complaint(quantity(figure + "[[quantity]]\nname = \"q\"\n" + figure, good), "another quantity");
 }
 
-TEST_F(ExperimentFile, ClaimsAreHeldAgainstTheExperiment) {
+TEST_F(ExperimentFile, ClaimsAreCheckedAgainstTheExperiment) {
   const auto claim = [&](const std::string& inequality, const std::string& expect) {
     return std::string(head) + "[zoom]\ndistances = [1, 4]\n[[claim]]\nname = \"n\"\ntext = \"t\"\nreason = \"r\"\n" +
            "expect = \"" + expect + "\"\ninequality = \"" + inequality + "\"\n";

@@ -133,7 +133,7 @@ class Parser {
     }
     known.emplace_back("abs");
     at_ = start;
-    fail(fmt::format("there is no function `{:.80}`", name), suggestion(name, known));
+    fail(fmt::format("`{:.80}` is not a function", name), suggestion(name, known));
   }
 
   void selector(Measure& measure) {
@@ -278,7 +278,7 @@ class Evaluator {
 
   Evaluation run(const Node& node) {
     found_.value = value(node);
-    if (found_.problem.empty()) found_.problem = trouble_with(found_.nodes);
+    if (found_.problem.empty()) found_.problem = mixed_hosts_message(found_.nodes);
     if (!found_.problem.empty()) found_.value.reset();
     if (found_.value && std::isnan(*found_.value)) {
       found_.value.reset();
@@ -288,7 +288,7 @@ class Evaluator {
   }
 
  private:
-  // 0 where there is a problem: it is told, and the value is not used.
+  // 0 if there is a problem, which is reported instead of the value.
   double value(const Node& node) {
     switch (node.kind) {
       case Kind::number:
@@ -394,7 +394,7 @@ Inequality::Inequality(std::string text, Parts parts)
       left_(std::move(parts.left)),
       right_(std::move(parts.right)) {}
 
-bool Inequality::holds(double left, double right) const {
+bool Inequality::is_true(double left, double right) const {
   if (relation_ == "<") return left < right;
   if (relation_ == "<=") return left <= right;
   if (relation_ == ">") return left > right;

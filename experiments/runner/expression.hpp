@@ -67,7 +67,7 @@ class Inequality {
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const Expression& left() const { return left_; }
   [[nodiscard]] const Expression& right() const { return right_; }
-  [[nodiscard]] bool holds(double left, double right) const;
+  [[nodiscard]] bool is_true(double left, double right) const;
 
  private:
   struct Parts;

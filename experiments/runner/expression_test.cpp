@@ -158,15 +158,15 @@ TEST(Expression, DivisionByZeroIsAProblemNotAFigure) {
   EXPECT_NE(found.problem.find("division by 0"), std::string::npos);
 }
 
-TEST(Expression, AtTheNoiseFloorIsTold) {
+TEST(Expression, AtTheNoiseFloorIsReported) {
   Results results = two_frames();
   for (Record& record : results.records) record.error->normalized_color = 0.005;
   EXPECT_TRUE(Expression("error(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
-  results.records[3].error->normalized_color = 0.5;  // one frame of `a` that stands out
+  results.records[3].error->normalized_color = 0.5;  // one outlier among the frames of `a`
   EXPECT_FALSE(Expression("error(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
 }
 
-TEST(Expression, TheStarStandsForAMethod) {
+TEST(Expression, TheStarIsAMethod) {
   EXPECT_EQ(Expression("abs(error(*) - error(a))", "").with_method("b").text(), "abs(error(b) - error(a))");
 }
 
@@ -180,7 +180,7 @@ TEST(Expression, TextKeepsItsParentheses) {
 }
 
 TEST(Expression, WhatIsWrongIsNamedWithItsColumn) {
-  EXPECT_NE(complaint("eror(a)").find("here, column 1: there is no function `eror` (did you mean `error`?"),
+  EXPECT_NE(complaint("eror(a)").find("here, column 1: `eror` is not a function (did you mean `error`?"),
             std::string::npos);
   EXPECT_NE(complaint("1 + ").find("column 5"), std::string::npos);
   EXPECT_NE(complaint("1 + (2 * 3").find("`)` is missing"), std::string::npos);
@@ -216,16 +216,16 @@ TEST(Inequality, ComparesItsSides) {
   const Inequality claim("error(a) <= 0.5 * error(b)", "here");
   EXPECT_DOUBLE_EQ(claim.left().evaluate(only(two_frames())).value.value(), 0.15);
   EXPECT_DOUBLE_EQ(claim.right().evaluate(only(two_frames())).value.value(), 0.2);
-  EXPECT_TRUE(claim.holds(1, 1));
-  EXPECT_FALSE(claim.holds(2, 1));
-  EXPECT_FALSE(Inequality("1 < 1", "").holds(1, 1));
-  EXPECT_TRUE(Inequality("1 >= 1", "").holds(1, 1));
-  EXPECT_FALSE(Inequality("1 > 1", "").holds(1, 1));
+  EXPECT_TRUE(claim.is_true(1, 1));
+  EXPECT_FALSE(claim.is_true(2, 1));
+  EXPECT_FALSE(Inequality("1 < 1", "").is_true(1, 1));
+  EXPECT_TRUE(Inequality("1 >= 1", "").is_true(1, 1));
+  EXPECT_FALSE(Inequality("1 > 1", "").is_true(1, 1));
   EXPECT_THROW(Inequality("error(a)", "here"), Error);
   EXPECT_THROW(Inequality("1 < 2 < 3", "here"), Error);
 }
 
-// Whatever stands there, the parser ends with a tree or with one error.
+// The parser ends with a tree or with one error for any text.
 TEST(Expression, RandomTextIsTakenOrRefused) {
   std::mt19937 random(1);
   const std::vector<std::string> pieces{"error", "(", ")",   "a",    ",",       "spp=",      "16",

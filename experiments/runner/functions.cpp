@@ -70,7 +70,7 @@ void a_footprint(const Measure& measure, const Experiment& experiment) {
   if (!measure.footprint) return;
   const auto found = std::ranges::find(experiment.footprints, *measure.footprint, &NamedFootprint::name);
   if (found != experiment.footprints.end()) return;
-  refuse(measure, fmt::format("there is no footprint `{:.80}`", *measure.footprint), "use the name of one of [[ndf]]");
+  refuse(measure, fmt::format("`{:.80}` is not a footprint", *measure.footprint), "use the name of one of [[ndf]]");
 }
 
 void a_gpu(const Measure& measure, const Experiment& experiment) {
@@ -86,12 +86,12 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
   if (!measure.name) refuse(measure, "does not say which", "add name=NAME, of one of [[quantity]]");
   const auto named = std::ranges::find(experiment.quantities, *measure.name, &NamedQuantity::name);
   if (named == experiment.quantities.end()) {
-    refuse(measure, fmt::format("there is no quantity `{:.80}`", *measure.name), "use the name of one of [[quantity]]");
+    refuse(measure, fmt::format("`{:.80}` is not a quantity", *measure.name), "use the name of one of [[quantity]]");
   }
   const std::string& method =
       experiment.run.methods[select_method(measure.method, texts_of(experiment.run.methods))].name;
   if (find_quantity(find_method(method), named->quantity) != nullptr) return;
-  refuse(measure, fmt::format("{} has no figure `{}`", method, named->quantity), "ask a method that has it");
+  refuse(measure, fmt::format("{} has no figure `{}`", method, named->quantity), "name a method that has it");
 }
 
 // ---- evaluate
@@ -99,7 +99,7 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
 using Figure = std::optional<double>;
 using Evaluate = decltype(FigureFunction::evaluate);
 
-// What one record says.
+// The figure of one record.
 struct Sample {
   Figure value;
   bool at_noise_floor = false;
@@ -376,7 +376,7 @@ void check_slice(const Measure& measure, const Experiment& experiment) {
 
 }  // namespace
 
-std::string trouble_with(const std::set<std::string>& nodes) {
+std::string mixed_hosts_message(const std::set<std::string>& nodes) {
   if (nodes.size() < 2) return {};
   return fmt::format("its times were taken on {} machines ({}): compare ratios to direct", nodes.size(),
                      fmt::join(nodes, ", "));
@@ -398,7 +398,7 @@ void check_measure(const Measure& measure, const Experiment& experiment) {
 
 void check_distance(const Measure& measure, const std::vector<double>& distances, std::size_t frames) {
   if (measure.frame && static_cast<std::size_t>(*measure.frame) >= frames) {
-    refuse(measure, "there is no such frame", fmt::format("frames are 0 to {}", frames - 1));
+    refuse(measure, "no such frame", fmt::format("frames are 0 to {}", frames - 1));
   }
   if (measure.distance && !has(distances, *measure.distance)) {
     refuse(measure, "the experiment has no such distance", fmt::format("it has {}", fmt::join(distances, ", ")));

@@ -1,5 +1,5 @@
-// The functions that claims, thresholds and published figures call: one table, which the parser, the check of an
-// experiment and the evaluation read, and to which the list in docs/experiments.md is held.
+// The functions that claims, thresholds and published figures call: one table for the parser, the check of an
+// experiment and the evaluation. A test compares it with the list in docs/experiments.md.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace footprint {
 
 struct Experiment;
 
-/// What narrows a call down: `distance=4`.
+/// A selector of a call: `distance=4`.
 enum class Selector {
   distance,
   frame,
@@ -34,7 +34,7 @@ enum class Selector {
 /// As it is written: "distance".
 [[nodiscard]] std::string_view selector_name(Selector selector);
 
-/// What a run says to a measure.
+/// The value of a measure over a run.
 struct Measured {
   std::optional<double> value;
   std::string problem;          ///< why there is none
@@ -45,9 +45,9 @@ struct Measured {
   std::size_t records = 0;        ///< that the value is the mean of
 };
 
-/// Why times of these machines are no figure; empty where they are of one. Times of two machines say nothing of each
-/// other: what compares across machines is `ratio`, each formed on one.
-[[nodiscard]] std::string trouble_with(const std::set<std::string>& nodes);
+/// Why times of these machines are not comparable; empty for one machine. Across machines only `ratio` is comparable,
+/// because each ratio is formed on one machine.
+[[nodiscard]] std::string mixed_hosts_message(const std::set<std::string>& nodes);
 
 /// A function of a method's figures: a row of the table.
 struct FigureFunction {

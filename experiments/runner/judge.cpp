@@ -41,15 +41,15 @@ ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
   add_figures(right, outcome.figures);
   std::set<std::string> nodes = left.nodes;
   nodes.insert(right.nodes.begin(), right.nodes.end());
-  if (outcome.problem.empty()) outcome.problem = trouble_with(nodes);
+  if (outcome.problem.empty()) outcome.problem = mixed_hosts_message(nodes);
   if (outcome.problem.empty() && left.value && right.value) {
-    const bool holds = claim.inequality.holds(*left.value, *right.value);
-    outcome.outcome = holds ? Verdict::reproduced : Verdict::not_reproduced;
+    const bool is_true = claim.inequality.is_true(*left.value, *right.value);
+    outcome.outcome = is_true ? Verdict::reproduced : Verdict::not_reproduced;
   }
   return outcome;
 }
 
-// A bound on one error that lies within what the reference's noise causes of it can be neither held nor missed.
+// A limit on one error that is no higher than the noise of the reference can be neither passed nor missed.
 ThresholdOutcome outcome_of(const Threshold& threshold, std::span<const Results> runs) {
   Evaluation found = threshold.measure.evaluate(runs);
   ThresholdOutcome outcome{.measure = threshold.measure.text(),
@@ -62,7 +62,7 @@ ThresholdOutcome outcome_of(const Threshold& threshold, std::span<const Results>
   if (found.value && floor && threshold.limit <= *floor) {
     outcome.measured.reset();
     outcome.problem =
-        fmt::format("the limit lies within the reference's noise, {:.3g}: more samples, or a higher limit", *floor);
+        fmt::format("the limit is within the reference's noise, {:.3g}: more samples, or a higher limit", *floor);
   }
   return outcome;
 }

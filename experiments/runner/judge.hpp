@@ -1,4 +1,4 @@
-// From an experiment and what its run measured to what became of its claims, thresholds and published figures.
+// Evaluates the claims, thresholds and published figures of an experiment over the results of its run.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace footprint {
 
-/// Everything but the pictures. A claim is `undecided` where a figure is missing; a threshold that has no figure is not
-/// held. `runs` are that of this experiment, or those of the members of this matrix.
+/// Everything but the pictures. A claim is `undecided` where a figure is missing; a threshold without a figure has
+/// not passed. `runs` has the results of this experiment, or those of the members of this matrix.
 [[nodiscard]] ExperimentReport judge(const Experiment& experiment, std::span<const Results> runs);
 
 }  // namespace footprint

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each member is a folder and a comparison, whose methods all are held at once.
+// Each member has a folder and a comparison, which stores all its methods at once.
 constexpr std::size_t most_members = 1000, most_methods = 200;
 
 struct AxisSource {
@@ -114,7 +114,7 @@ void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
   methods = std::move(all);
 }
 
-// What a value is called in a folder's name: of a path what tells it from others.
+// The name of a value in a folder's name; of a path only its distinctive part.
 std::string value_name(const std::string& key, const std::string& value) {
   if (key == "seed") return "seed" + value;
   if (key != "scene") return value;
@@ -123,7 +123,7 @@ std::string value_name(const std::string& key, const std::string& value) {
   return path.has_extension() ? path.stem().string() : path.filename().string();
 }
 
-// Of each member, where it stands.
+// The coordinates of every member.
 std::vector<Coordinates> multiplied_out(const std::vector<Axis>& axes) {
   std::vector<Coordinates> all{{}};
   for (const Axis& axis : axes) {
@@ -140,7 +140,7 @@ std::vector<Coordinates> multiplied_out(const std::vector<Axis>& axes) {
 }
 
 std::vector<std::string> member_names(const std::vector<Coordinates>& places) {
-  std::vector<std::string> names{"kept", "images"};  // what else may lie in the output folder
+  std::vector<std::string> names{"kept", "images"};  // other folders of the output
   const std::size_t others = names.size();
   for (const Coordinates& place : places) {
     std::string name;
@@ -168,11 +168,11 @@ bool is_over(const Expression& expression, const std::vector<Coordinates>& membe
 // Expressions are moved and not assigned.
 template <class Item, class Keeps>
 void keep_if(std::vector<Item>& items, Keeps keeps) {
-  std::vector<Item> kept;
+  std::vector<Item> remaining;
   for (Item& item : items) {
-    if (keeps(item)) kept.push_back(std::move(item));
+    if (keeps(item)) remaining.push_back(std::move(item));
   }
-  items = std::move(kept);
+  items = std::move(remaining);
 }
 
 }  // namespace

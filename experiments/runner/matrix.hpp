@@ -35,7 +35,7 @@ void read_matrix(const TomlTable& root, Experiment& experiment);
 /// of them together, claims and thresholds, is left to the whole.
 [[nodiscard]] std::vector<Experiment> members_of_matrix(const Experiment& whole);
 
-/// Whether a measure is, among others, over the member that stands there.
+/// Whether a measure includes the member at these coordinates.
 [[nodiscard]] bool selects(const Measure& measure, const Coordinates& member);
 
 /// Takes out of `whole` the claims, thresholds and published figures that are over any of the members in `missing`, and

@@ -110,9 +110,9 @@ TEST_F(MatrixFile, IsRefusedAtItsLineBeforeAnythingIsRendered) {
   complains("scene = [\"bumps\"]\noptions = { tan_gmm = { n = [1, 1] } }\n", "twice");
   complains("scene = [\"bumps\"]\noptions = { tan_gmm = { n = [] } }\n", "list of strings or numbers");
   complains("scene = [\"bumps\"]\noptions = { tan_gmm = 1 }\n", "varies nothing");
-  expect_complaint(no_scene + "scene = \"bumps\"\n[matrix]\nscene = [\"bumps\"]\n", "mine.toml:4", "in [matrix] too");
+  expect_complaint(no_scene + "scene = \"bumps\"\n[matrix]\nscene = [\"bumps\"]\n", "mine.toml:4", "also in [matrix]");
   expect_complaint(no_scene + "[matrix]\nscene = [\"bumps\"]\nseed = [1]\n[reference]\nseed = 2\n", "mine.toml:8",
-                   "in [matrix] too");
+                   "also in [matrix]");
   expect_complaint(no_scene + "[matrix]\nseed = [1]\n", "mine.toml:1", "`scene` in [experiment] is missing");
   expect_complaint(no_scene + "[matrix]\nscene = [\"bumps\", \"bumbs\"]\n", "bumbs: no such scene",
                    "did you mean `bumps`");
@@ -122,7 +122,7 @@ TEST_F(MatrixFile, IsRefusedAtItsLineBeforeAnythingIsRendered) {
   complains("scene = [\"bumps\"]\noptions = { tan_gmm = { n = [" + seeds + "] } }\n", "more than 200 methods");
 }
 
-TEST_F(MatrixFile, WhatItLacksCannotBeAskedFor) {
+TEST_F(MatrixFile, WhatItLacksIsRefused) {
   const auto complains = [&](const std::string& inequality, const std::string& part) {
     expect_complaint(no_scene + varied + claim(inequality), "mine.toml:", part);
   };
@@ -200,7 +200,7 @@ TEST_F(MatrixFile, WhatIsOverMembersThatAreLeftOutIsNotJudged) {
   EXPECT_EQ(whole.thresholds[0].measure.text(), "error(direct, scene=bumps)");
 }
 
-TEST_F(MatrixFile, PresetsStandWhereTheFileSaysNothing) {
+TEST_F(MatrixFile, PresetsApplyWhereTheFileSaysNothing) {
   write("shared.toml",
         "[experiment]\nmethods = [\"direct\"]\nrepeats = 3\n[reference]\nspp = 8\nseed = 5\n[zoom]\ndistances = [1]\n"
         "[matrix]\nscene = [\"bumps\"]\nsize = [\"8x8\"]\n");
@@ -215,7 +215,7 @@ TEST_F(MatrixFile, PresetsStandWhereTheFileSaysNothing) {
   EXPECT_EQ(members_of_matrix(experiment).front().name, "ribbed_plane-8x8");
   const Experiment zooms = read(with_presets + "[zoom]\nfrom = 1\nto = 2\nframes = 2\n");
   EXPECT_TRUE(zooms.run.view.distances.empty()) << "a zoom is taken whole or not at all";
-  expect_complaint(with_presets + "scene = \"bumps\"\n", "mine.toml:4", "in [matrix] too");
+  expect_complaint(with_presets + "scene = \"bumps\"\n", "mine.toml:4", "also in [matrix]");
   expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"none.toml\"\n", "mine.toml:3", "which is not a file");
   expect_complaint("[experiment]\ntitle = \"T\"\npresets = \"shared.toml\"\nmembers = [\"a\"]\n", "mine.toml:3",
                    "excludes `members`");

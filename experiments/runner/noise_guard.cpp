@@ -43,10 +43,10 @@ void NoiseGuard::see(std::size_t member, std::span<const Record> records) {
     own.other_references = record.other_references;
     own.flicker = record.flicker;
   }
-  for (const Threshold& threshold : judged_->thresholds) hold(threshold);
+  for (const Threshold& threshold : judged_->thresholds) check(threshold);
 }
 
-void NoiseGuard::hold(const Threshold& threshold) const {
+void NoiseGuard::check(const Threshold& threshold) const {
   const std::optional<Measure> measure = single_measure(threshold);
   if (!measure) return;
   const Evaluation found = threshold.measure.evaluate(known_);
@@ -56,7 +56,7 @@ void NoiseGuard::hold(const Threshold& threshold) const {
   const double least = *call.noise_floor * static_cast<double>(call.records) / count;
   if (threshold.limit > least) return;
   throw Error(ErrorKind::usage, threshold.place,
-              fmt::format("the threshold {} = {:.3g} lies within the reference's noise, {:.3g} or more", call.text,
+              fmt::format("the threshold {} = {:.3g} is within the reference's noise, {:.3g} or more", call.text,
                           threshold.limit, least),
               "take more samples, or a higher limit");
 }

@@ -17,7 +17,7 @@ Experiment experiment_with(const std::string& measure, double limit) {
   return experiment;
 }
 
-// What a run knows of a distance once its reference is there.
+// The records of a distance as soon as its reference is rendered.
 Record floor_at(double distance, double floor) {
   Record record;
   record.method = "direct";
@@ -57,7 +57,7 @@ TEST(NoiseGuard, AMeanIsRefusedOnceTheRestCannotHelp) {
   EXPECT_EQ(refusal(few.watch(experiment), floor_at(1, 0.018)), "") << "0.009 at least";
   EXPECT_NE(refusal(few.watch(experiment), floor_at(2, 0.003)), "");
   NoiseGuard many(experiment, std::span(&experiment, 1));
-  EXPECT_NE(refusal(many.watch(experiment), floor_at(1, 0.02)), "") << "0.01 whatever the second distance's is";
+  EXPECT_NE(refusal(many.watch(experiment), floor_at(1, 0.02)), "") << "0.01 for any second distance";
 }
 
 TEST(NoiseGuard, HeedsWhatTheBoundIsOn) {

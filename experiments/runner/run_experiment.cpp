@@ -36,7 +36,7 @@ constexpr int quick_spp = 16;
 constexpr int quick_repeats = 1;
 constexpr int quick_divisor = 4;
 constexpr int quick_texels = 256;   // a side of surfaces that are made: bakes grow with them
-constexpr int quick_default = 128;  // pixels a side where the experiment gives no size
+constexpr int quick_default = 128;  // pixels per side where the experiment gives no size
 
 // Looks into one footprint, in a folder ndf/NAME of its own.
 std::vector<FootprintNdf> inspected(const Experiment& experiment, const NdfSource& source,
@@ -74,7 +74,7 @@ bool has_further_figures(const Experiment& experiment) {
   return !experiment.footprints.empty() || !experiment.quantities.empty();
 }
 
-// What the figures depend on besides the settings.
+// The inputs of the figures besides the settings.
 std::vector<std::string> figure_content(const Experiment& experiment) {
   std::vector<std::string> content;
   for (const auto& [name, rect] : experiment.footprints) {

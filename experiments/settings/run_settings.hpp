@@ -21,7 +21,7 @@
 
 namespace footprint {
 
-/// Who set an exposure.
+/// The origin of an exposure.
 enum class ExposureSource { scene, automatic, command_line, experiment };
 
 /// As reports write it.
@@ -40,7 +40,7 @@ struct Exposure {
 
 /// Frames at equal ratios of the camera's distance.
 struct ZoomSettings {
-  int frames = 0;              ///< 0: there is no zoom; else 2 or more
+  int frames = 0;              ///< 0: no zoom; else 2 or more
   std::optional<double> from;  ///< factor on the camera's distance; none: the first of the scene's zoom path
   std::optional<double> to;    ///< none: the last of it, or 8 times `from` if it has only one
 };
@@ -61,7 +61,7 @@ inline constexpr std::array<Word<AnimationPath>, 3> animation_paths{{
 
 /// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.
 struct PathSettings {
-  std::optional<AnimationPath> kind;  ///< none: the run is no animation
+  std::optional<AnimationPath> kind;  ///< none: not an animation
   std::optional<double> degrees;      ///< angle from the first frame to the last; none: 60
   std::optional<glm::dvec3> axis;     ///< of the rotation, unit, in world space; none: the camera's up
 };
@@ -109,14 +109,14 @@ struct ReferenceSettings {
   bool by_cause = true;
 };
 
-/// How frame times are taken.
+/// The timing of frames.
 struct TimingSettings {
   int repeats = 9;                      ///< timed frames of each method and distance in each process
   int processes = 1;                    ///< one after the other
   std::optional<FootprintFilter> unit;  ///< of the `direct` frame that costs 1; none: that of the methods
 };
 
-/// How and where a run is rendered.
+/// The backend of a run.
 struct BackendSettings {
   gl::ContextRequest context;
   int tile = 0;  ///< side of the tiles in pixels; 0: as large as fits

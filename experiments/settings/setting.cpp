@@ -1,4 +1,4 @@
-// What is done with the table of settings, whatever its rows.
+// Reads, writes and describes settings by their table.
 #include "experiments/settings/setting.hpp"
 
 #include <fmt/format.h>

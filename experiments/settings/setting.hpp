@@ -13,7 +13,7 @@ namespace footprint {
 
 class TomlTable;
 
-/// How a value is written, and where in a RunSettings it goes; setting_types.hpp makes them.
+/// The text form of a value, and its place in a RunSettings; setting_types.hpp makes them.
 struct SettingType {
   std::string word{};        ///< placeholder of the value in the help: "N", "WIDTHxHEIGHT"; empty: a flag
   std::string takes{};       ///< the values of an option: "1 to 4096"; empty if the help says it
@@ -22,7 +22,7 @@ struct SettingType {
   std::function<void(RunSettings& run, std::string_view option, const std::string& text)> read_text;
   /// The value as an option takes it; empty: there is none.
   std::function<std::string(RunSettings run)> text;
-  /// What separates the elements in the text of a list, which is an array in a file; 0: the value is not a list.
+  /// The separator in the text of a list, which is an array in a file; 0: the value is not a list.
   char separator = 0;
 };
 

@@ -155,7 +155,7 @@ SettingType whole_number_of(Field<Number> field, Number low, Number high) {
           .text = [=](RunSettings run) { return fmt::format("{}", field(run)); }};
 }
 
-// A text that may not be empty, in whatever type the field has.
+// A text that may not be empty, for a field of any type.
 template <class Value>
 SettingType some_text(Field<std::optional<Value>> field, const char* word, const char* hint,
                       std::string (*text)(const Value&)) {

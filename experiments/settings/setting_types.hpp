@@ -57,7 +57,7 @@ using Field = Value& (*)(RunSettings& run);
 /// Factors on the camera's distance, at most `most`, all different.
 [[nodiscard]] SettingType distances(Field<std::vector<double>> field, std::size_t most);
 
-/// A frame size. Errors (machine), for an option only: memory cannot hold one image of it.
+/// A frame size. Errors (machine), for an option only: one image of it exceeds memory.
 [[nodiscard]] SettingType frame_size(Field<std::optional<glm::ivec2>> field);
 
 /// A factor on radiance, or "auto" for none.

@@ -50,7 +50,7 @@ std::string table_of_keys() {
   return text;
 }
 
-// What stands in a document between the marks around the settings.
+// The text of a document between the marks around the settings.
 std::string settings_in(const std::string& document) {
   std::ifstream file(testing::source_folder() / "docs" / document);
   const std::string text{std::istreambuf_iterator<char>(file), {}};

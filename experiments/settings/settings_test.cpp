@@ -24,7 +24,7 @@ const Setting& row_of(std::string_view command, std::string_view option) {
   throw std::out_of_range(std::string(command) + " has no option " + std::string(option));
 }
 
-// What `option TEXT` of a subcommand makes of a run.
+// The settings after `option TEXT` of a subcommand.
 RunSettings read(std::string_view command, std::string_view option, const std::string& text) {
   RunSettings run;
   row_of(command, option).type.read_text(run, option, text);
@@ -62,7 +62,7 @@ TEST(SizeSetting, RefusesWhatIsNoSize) {
   EXPECT_TRUE(says(refused_size("1x99999999999999999999999"), "more than 10000000 pixels"));
 }
 
-TEST(SizeSetting, AsksWhetherMemoryHoldsAPicture) {
+TEST(SizeSetting, ChecksThatAnImageFitsMemory) {
   try {
     (void)read("compare", "--size", "10000000x10000000");
     ADD_FAILURE() << "was taken";
@@ -100,7 +100,7 @@ TEST(ExposureSetting, RefusesWhatIsNoExposure) {
   }
 }
 
-TEST(WholeSetting, IsHeldToItsRange) {
+TEST(WholeSetting, HasARange) {
   EXPECT_EQ(read("compare", "--spp", "4096").reference.spp, 4096);
   EXPECT_EQ(read("compare", "--seed", "18446744073709551615").reference.seed, 18446744073709551615U);
   for (const char* text : {"0", "4097", "-1", "1.5", "many", "", "99999999999"}) {
@@ -130,7 +130,7 @@ TEST(MethodSetting, IsOneMethodOrTheReference) {
   EXPECT_TRUE(says(refusal("render", "--method", "direct,toksvig"), "more than one method"));
 }
 
-// What a row must have to be read, shown and documented.
+// Every row has the fields that reading, help and documents need.
 TEST(SettingsTable, EveryRowIsWhole) {
   std::set<std::pair<std::string_view, std::string_view>> seen;
   for (const Setting& setting : run_settings()) {
@@ -141,14 +141,14 @@ TEST(SettingsTable, EveryRowIsWhole) {
     EXPECT_EQ(setting.table.empty(), setting.key.empty()) << row;
     EXPECT_FALSE(setting.option.empty() && setting.key.empty()) << row;
     EXPECT_TRUE(setting.type.read_text) << row;
-    EXPECT_TRUE(setting.key.empty() || seen.emplace(setting.table, setting.key).second) << row << " stands twice";
+    EXPECT_TRUE(setting.key.empty() || seen.emplace(setting.table, setting.key).second) << row << " is there twice";
     for (const std::string_view command : setting.commands) {
       EXPECT_TRUE(seen.emplace(command, option_name(setting)).second) << command << " has " << row << " twice";
     }
   }
 }
 
-// A default that stands in the table is one that the setting takes.
+// A setting accepts the default that the table gives.
 TEST(SettingsTable, EveryDefaultIsTaken) {
   for (const Setting& setting : run_settings()) {
     if (setting.option.empty() || default_text(setting).empty()) continue;

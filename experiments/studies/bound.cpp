@@ -1,4 +1,4 @@
-// Where `exact` is cheap enough to be drawn unasked: counted in facets that it shades.
+// Decides where `exact` is cheap enough to be rendered by default, from the facets that it shades.
 #include "experiments/studies/bound.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use, std::v
 BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
                         const PixelParts& parts, const Image& texels) {
   const BoundLights lights{.lights = stage.scene().lights.size(), .environment = stage.scene().environment.has_value()};
-  const PixelCost facets = [&](int x, int y) { return work_of_bound(texels.at(x, y)[0], lights); };
+  const PixelCost facets = [&](int x, int y) { return estimated_exact_cost(texels.at(x, y)[0], lights); };
   const std::vector<Tile> whole{{.origin = {0, 0}, .size = view.size}};
   const bool all = use == BoundUse::on || cost_of(whole.front(), parts, facets) <= cheap_facets;
   const std::vector<Tile> tiles = all ? whole : cheap_parts(parts, bound_tile, facets, cheap_facets);

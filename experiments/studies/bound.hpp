@@ -1,5 +1,5 @@
-// The bound of a comparison: the picture of `exact`, drawn over as much of the frame as is asked for or cheap, that no
-// method can be better than under the same footprint filter.
+// The bound of a comparison: the image of `exact`, which no method can beat under the same footprint filter. It covers
+// the requested part of the frame, or as much as is cheap.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace footprint {
 
-/// The picture of `exact`, and where it was drawn.
+/// The image of `exact`, and where it was rendered.
 struct BoundPicture {
   Image picture;  ///< RGBA
   Image pixels;   ///< a mask of the interior pixels in which it was drawn, and is finite
@@ -22,7 +22,7 @@ struct BoundPicture {
 [[nodiscard]] std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use,
                                                       std::vector<std::string>& warnings);
 
-/// Whole where that was asked for or is cheap, else in squares. `texels` are those of Interior.
+/// Whole if requested or cheap, else in squares. `texels` are those of Interior.
 [[nodiscard]] BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
                                       const PixelParts& parts, const Image& texels);
 

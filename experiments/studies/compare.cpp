@@ -432,7 +432,7 @@ ComparisonHead head_of(Job& job) {
                       .last_warnings = {}};
   const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
   if (left_out.any())
-    head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as was asked: {}",
+    head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as requested: {}",
                                              fmt::join(effect_names(left_out), ", ")));
   add_precompute_notes(stage, settings.methods.size(), head.last_warnings);
   job.store("head", head);

@@ -34,8 +34,8 @@ using RecordWatch = std::function<void(std::span<const Record> records)>;
 /// Sees the results over the finished distances, whose images are written, after each distance but the last.
 using ResultsWatch = std::function<void(const Results& results)>;
 
-/// What comparisons of one scene, view and reference share, whatever their methods and footprint filters. Comparisons
-/// of another size or reference can share the scene alone.
+/// The work that comparisons of one scene, view and reference share, for any methods and footprint filters. Comparisons
+/// of another size or reference can share only the scene.
 struct SharedWork {
   std::shared_ptr<PreparedScene> scene;
   std::string content;  ///< scene_content, taken before the scene was prepared
@@ -43,7 +43,7 @@ struct SharedWork {
   std::string first;  ///< fingerprint of the first comparison, on whose methods the references depend
 };
 
-/// What a comparison may use besides its settings. Everything is optional.
+/// The context of a comparison besides its settings. Everything is optional.
 struct CompareContext {
   FurtherTimes further_times = {};
   const FinishedWork* finished = nullptr;  ///< parts are taken from here and stored here

@@ -51,7 +51,7 @@ std::vector<Tile> noisy(const Supersampled& picture, std::span<const Tile> tiles
 double converge(const Supersampler& sampler, Supersampled& picture, const View& view, std::uint64_t seed,
                 const Convergence& wanted, const Progress& progress) {
   const double pixels = static_cast<double>(view.size.x) * view.size.y;
-  double work = wanted.most_work * picture.spp * pixels;
+  double work = wanted.max_extra_work * picture.spp * pixels;
   double samples = picture.spp * pixels;
   std::vector<Tile> tiles = tiles_of(view.size, tile_edge);
   int before = picture.spp;

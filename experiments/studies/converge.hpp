@@ -12,13 +12,12 @@ struct Convergence {
   double noise = 0;  ///< of each tile: normalised colour error, as `noise_floor`
   float exposure = 1;
   int spp_max = 4096;
-  double most_work = 3;  ///< samples that are taken at most, over all that the picture has already; above 0
+  double max_extra_work = 3;  ///< most further samples, over those that the image has already; above 0
 };
 
-/// Tiles of 128 x 128 pixels whose noise floor, unresolved pixels left out, is above `noise` are taken anew with four
-/// times the samples, again and again, the noisiest first. Each tile's pixels are those of a picture of so many
-/// samples: which tiles go on depends on the first picture alone, and not on time. Returns the mean samples a pixel
-/// that the picture has in the end.
+/// Tiles of 128 x 128 pixels whose noise floor, unresolved pixels left out, is above `noise` are rendered again with
+/// four times the samples, repeatedly, the noisiest first. Each tile equals that part of an image of as many samples.
+/// The choice of tiles depends on the first image only, not on time. Returns the mean samples per pixel in the end.
 double converge(const Supersampler& sampler, Supersampled& picture, const View& view, std::uint64_t seed,
                 const Convergence& wanted, const Progress& progress);
 

@@ -61,8 +61,8 @@ TEST_F(Converge, TakesNoisyTilesFurtherAndLeavesTheOthers) {
   const Supersampled first = picture(64), finer = picture(256);
   Supersampled refined = first;
   const double floor = noise_floor(first, 1.0F).value();
-  const double samples =
-      converge(sampler_, refined, view_, fixed_seed, {.noise = floor, .spp_max = 256, .most_work = 100.0}, no_progress);
+  const double samples = converge(sampler_, refined, view_, fixed_seed,
+                                  {.noise = floor, .spp_max = 256, .max_extra_work = 100.0}, no_progress);
   EXPECT_EQ(samples, (64 + 256) / 2.0);
   EXPECT_TRUE(same_columns(refined.mean, first.mean, 128, 256));
   EXPECT_FALSE(same_columns(refined.mean, first.mean, 0, 128));
@@ -75,13 +75,13 @@ TEST_F(Converge, StopsAtItsNoiseAndAtItsWork) {
   const Supersampled first = refined;
   EXPECT_EQ(converge(sampler_, refined, view_, fixed_seed, {.noise = 1.0}, no_progress), 64.0);
   EXPECT_EQ(refined.mean, first.mean);
-  EXPECT_EQ(converge(sampler_, refined, view_, fixed_seed, {.noise = 1e-9, .most_work = 1.0}, no_progress), 64.0);
+  EXPECT_EQ(converge(sampler_, refined, view_, fixed_seed, {.noise = 1e-9, .max_extra_work = 1.0}, no_progress), 64.0);
   EXPECT_EQ(refined.mean, first.mean);  // one tile of 256 samples is twice the first picture's work
 }
 
 TEST_F(Converge, IsDeterministic) {
   Supersampled one = picture(64), other = picture(64);
-  const Convergence wanted{.noise = 1e-4, .spp_max = 256, .most_work = 20.0};
+  const Convergence wanted{.noise = 1e-4, .spp_max = 256, .max_extra_work = 20.0};
   EXPECT_EQ(converge(sampler_, one, view_, fixed_seed, wanted, no_progress),
             converge(sampler_, other, view_, fixed_seed, wanted, no_progress));
   EXPECT_EQ(one.mean, other.mean);

@@ -30,14 +30,14 @@ struct DistanceResult {
   std::vector<std::string> warnings;
 };
 
-/// What a run says of itself, whatever its views.
+/// The part of a run's results that does not depend on its views.
 struct ComparisonHead {
   BackendInfo backend;
   SceneInfo scene;
-  ReferenceInfo reference;  ///< as it was asked for
+  ReferenceInfo reference;  ///< as requested
   std::string footprint;
-  std::optional<AnimationWay> way;                         ///< none: the run is no animation
-  std::size_t frames = 0;                                  ///< of a path; 0: there is none
+  std::optional<AnimationWay> way;                         ///< none: not an animation
+  std::size_t frames = 0;                                  ///< of a path; 0: no path
   int timed_frames = 0;                                    ///< as TimingInfo has it
   std::optional<double> error_scale;                       ///< of all error images; none: derived from the run
   std::vector<std::string> first_warnings, last_warnings;  ///< before and after those of the views

@@ -11,9 +11,9 @@
 
 namespace footprint {
 
-/// What `footprint edit` is asked for.
+/// The settings of `footprint edit`.
 struct EditSettings {
-  RunSettings run;                     ///< with one method; reference, timing and cache are not asked for
+  RunSettings run;                     ///< with one method; ignores reference, timing and cache
   std::vector<ParameterSweep> sweeps;  ///< one or more
   int frames = 10;                     ///< 1 or more
 };

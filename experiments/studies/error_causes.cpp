@@ -12,9 +12,9 @@
 namespace footprint {
 namespace {
 
-constexpr double most_facets_a_level = 128.0 * 128.0;
+constexpr double most_facets_per_level = 128.0 * 128.0;
 // Under an environment, measured on golden_armor and armor_sky: a GGX lobe's nodes are looked up one by one.
-constexpr double most_surrounded_a_level = 1428.0, surrounded_facet = 50.0;
+constexpr double most_surrounded_per_level = 1428.0, surrounded_facet = 50.0;
 
 // Tiles have row 0 at the bottom, pictures at the top.
 template <typename Visit>  // visit(column, row of the picture)
@@ -71,13 +71,13 @@ std::optional<double> error_noise(const Image& picture, const std::pair<Image, I
   return pixels > 0 ? std::optional(std::sqrt(squares) / static_cast<double>(pixels)) : std::nullopt;
 }
 
-double work_of_bound(double texels, const BoundLights& lights) {
+double estimated_exact_cost(double texels, const BoundLights& lights) {
   const double level = std::floor(std::log2(std::max(texels, 1.0)));
   const auto facets = [&](double most) {
     return std::min(std::pow(4.0, level + 1.0), most) + std::min(std::pow(4.0, level + 2.0), most);
   };
-  const double surrounded = lights.environment ? surrounded_facet * facets(most_surrounded_a_level) : 0.0;
-  return static_cast<double>(lights.lights) * facets(most_facets_a_level) + surrounded;
+  const double surrounded = lights.environment ? surrounded_facet * facets(most_surrounded_per_level) : 0.0;
+  return static_cast<double>(lights.lights) * facets(most_facets_per_level) + surrounded;
 }
 
 double cost_of(const Tile& tile, const PixelParts& parts, const PixelCost& cost) {

@@ -1,5 +1,4 @@
-// What an error is made of (docs/metrics.md): over which pixels it is taken, and what is drawn to tell its causes
-// apart.
+// The causes of an error (docs/metrics.md): over which pixels it is measured, and what is rendered to separate them.
 #pragma once
 
 #include <cstddef>
@@ -55,31 +54,31 @@ struct CausePictures {
 /// an environment, pixels.
 inline constexpr int bound_tile = 32, light_tile = 8;
 
-/// What lights a scene: facets are shaded for each.
+/// The lights of a scene; facets are shaded for each.
 struct BoundLights {
   std::size_t lights = 0;
   bool environment = false;
 };
 
-/// What `exact` costs a pixel whose footprint's longer edge spans so many texels, in facets shaded for one light: those
-/// under the four texels of each of two levels, as a trilinear filter blends them, up to 128 x 128 a level. Of facets
+/// The cost of `exact` for a pixel whose footprint's longer edge spans `texels`, in facets shaded for one light: those
+/// under the four texels of each of two levels, as a trilinear filter blends them, up to 128 x 128 per level. Of facets
 /// that an environment lights there are less (methods/exact), and each costs what 50 do.
-[[nodiscard]] double work_of_bound(double texels, const BoundLights& lights);
+[[nodiscard]] double estimated_exact_cost(double texels, const BoundLights& lights);
 
-/// What a pixel costs; column, row.
+/// The cost of a pixel; column, row.
 using PixelCost = std::function<double(int, int)>;
 
-/// What the object pixels of a part of the picture cost together.
+/// The total cost of the object pixels of a part of the image.
 [[nodiscard]] double cost_of(const Tile& tile, const PixelParts& parts, const PixelCost& cost);
 
-/// Squares of the picture, `edge` pixels a side, whose object pixels cost at most `most`, in a fixed order that spreads
-/// them over the picture. `parts` tell where the object is.
+/// Squares of the picture, `edge` pixels per side, whose object pixels cost at most `most`, in a fixed order that
+/// spreads them over the image. `parts`: for the object pixels.
 [[nodiscard]] std::vector<Tile> cheap_parts(const PixelParts& parts, int edge, const PixelCost& cost, double most);
 
-/// Takes out of a mask the pixels at which the picture has a value that is no finite number.
+/// Takes out of a mask the pixels at which a value of the image is not finite.
 void leave_out_infinite(const Image& picture, Image& mask);
 
-/// The mask's pixels that lie in the tiles.
+/// The mask's pixels in the tiles.
 [[nodiscard]] Image within(const Image& mask, std::span<const Tile> tiles);
 
 }  // namespace footprint

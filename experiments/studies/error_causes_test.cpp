@@ -74,7 +74,7 @@ TEST(ErrorCauses, OfPartsWithoutAPixelThereIsNone) {
   EXPECT_TRUE(causes.edges.has_value());
 }
 
-// The triangle inequality: E(M, R) <= E(X, R) + E(M, X), whatever the pictures.
+// The triangle inequality: E(M, R) <= E(X, R) + E(M, X), for any images.
 TEST(ErrorCauses, ShadingIsAtMostFilterAndMethod) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Image reference = noise(6, seed), picture = noise(6, 100 + seed);
@@ -101,20 +101,20 @@ TEST(ErrorCauses, TheEndsOfTheBound) {
   EXPECT_EQ(*causes(picture).filter, *causes(picture).shading);
 }
 
-// References with noise of a known deviation: errors of one picture against many of them spread as one of them tells.
+// The spread of errors against many noisy references is the one that each of them estimates.
 TEST(ErrorNoise, IsTheSpreadOverReferences) {
   constexpr int edge = 24;
   constexpr float deviation = 0.02F;
-  const Image truth = noise(edge, 1), picture = noise(edge, 2);
+  const Image exact = noise(edge, 1), picture = noise(edge, 2);
   const Image mask(edge, edge, 1, 1.0F);
   std::mt19937 generator(5);
   std::normal_distribution<float> normal(0.0F, deviation * std::sqrt(2.0F));  // of a half
   const auto half = [&] {
-    Image image = truth;
+    Image image = exact;
     for (std::size_t i = 0; i < image.texels.size(); ++i) image.texels[i] += i % 4 == 3 ? 0.0F : normal(generator);
     return image;
   };
-  double sum = 0, squares = 0, told = 0;
+  double sum = 0, squares = 0, estimate = 0;
   constexpr int references = 200;
   for (int i = 0; i < references; ++i) {
     const std::pair halves(half(), half());
@@ -124,20 +124,20 @@ TEST(ErrorNoise, IsTheSpreadOverReferences) {
     const double error = normalized_color_over(picture, reference, 1.0F, mask).value();
     sum += error;
     squares += error * error;
-    told += error_noise(picture, halves, 1.0F, mask).value() / references;
+    estimate += error_noise(picture, halves, 1.0F, mask).value() / references;
   }
   const double spread = std::sqrt(squares / references - std::pow(sum / references, 2));
-  EXPECT_NEAR(told / spread, 1.0, 0.2) << told << " beside " << spread;
-  EXPECT_FALSE(error_noise(picture, {truth, truth}, 1.0F, Image(edge, edge, 1)).has_value());
+  EXPECT_NEAR(estimate / spread, 1.0, 0.2) << estimate << " beside " << spread;
+  EXPECT_FALSE(error_noise(picture, {exact, exact}, 1.0F, Image(edge, edge, 1)).has_value());
 }
 
 TEST(WorkOfBound, IsThatOfTheFacetsUnderTheTexelsThatAFilterBlends) {
-  EXPECT_EQ(work_of_bound(0.0, {.lights = 1}), 4 + 16);
-  EXPECT_EQ(work_of_bound(1.0, {.lights = 1}), 4 + 16);
-  EXPECT_EQ(work_of_bound(5.0, {.lights = 3}), 3 * (64 + 256));
-  EXPECT_EQ(work_of_bound(1e6, {.lights = 1}), 2 * 128 * 128);
-  EXPECT_EQ(work_of_bound(5.0, {.lights = 1, .environment = true}), 51 * (64 + 256));
-  EXPECT_EQ(work_of_bound(1e6, {.environment = true}), 50 * 2 * 1428);
+  EXPECT_EQ(estimated_exact_cost(0.0, {.lights = 1}), 4 + 16);
+  EXPECT_EQ(estimated_exact_cost(1.0, {.lights = 1}), 4 + 16);
+  EXPECT_EQ(estimated_exact_cost(5.0, {.lights = 3}), 3 * (64 + 256));
+  EXPECT_EQ(estimated_exact_cost(1e6, {.lights = 1}), 2 * 128 * 128);
+  EXPECT_EQ(estimated_exact_cost(5.0, {.lights = 1, .environment = true}), 51 * (64 + 256));
+  EXPECT_EQ(estimated_exact_cost(1e6, {.environment = true}), 50 * 2 * 1428);
 }
 
 TEST(LeaveOutInfinite, TakesOnlyThosePixels) {
@@ -152,7 +152,7 @@ TEST(LeaveOutInfinite, TakesOnlyThosePixels) {
 TEST(CheapParts, SpreadOverThePictureUpToWhatTheyMayCost) {
   constexpr int edge = 256;
   const PixelParts parts = pixel_parts(noise(edge, 1), stripes(edge));
-  const PixelCost facets = [](int, int) { return work_of_bound(5.0, {.lights = 1}); };
+  const PixelCost facets = [](int, int) { return estimated_exact_cost(5.0, {.lights = 1}); };
   const double a_tile = 320.0 * bound_tile * bound_tile;
   EXPECT_TRUE(cheap_parts(parts, bound_tile, facets, 0.5 * a_tile).empty());
   EXPECT_EQ(cheap_parts(parts, bound_tile, facets, 1e12).size(), 64U);
@@ -182,23 +182,23 @@ TEST(CheapParts, LieWhereThePictureHasThem) {
   EXPECT_EQ(pixel_count(within(parts.interior, tiles)), 1024U);
 }
 
-ReferenceView truth_of(const Image& reference, const Interior& interior) {
-  ReferenceView truth;
-  truth.reference.mean = reference;
-  truth.parts = pixel_parts(reference, interior);
-  return truth;
+ReferenceView view_of(const Image& reference, const Interior& interior) {
+  ReferenceView view;
+  view.reference.mean = reference;
+  view.parts = pixel_parts(reference, interior);
+  return view;
 }
 
-// Only what changes otherwise than the reference flickers, and it is told by the pixels in which it does.
-TEST(FlickerCauses, AreToldByPixels) {
+// Only what changes otherwise than the reference flickers, and each cause counts its own pixels.
+TEST(FlickerCauses, AreSeparatedByPixels) {
   const Image reference = noise(4, 1), before = noise(4, 2);
   Image picture = before;
   for (int y = 0; y < 4; ++y) {  // the second column is an edge, the third is interior
     for (int c = 0; c < 3; ++c)
       picture.at(1, y)[static_cast<std::size_t>(c)] = 1.0F - before.at(1, y)[static_cast<std::size_t>(c)];
   }
-  const ReferenceView truth = truth_of(reference, stripes(4));
-  const FlickerCauses causes = flicker_causes(before, picture, truth, truth, 1.0F);
+  const ReferenceView view = view_of(reference, stripes(4));
+  const FlickerCauses causes = flicker_causes(before, picture, view, view, 1.0F);
   EXPECT_EQ(causes.shading->mean, 0.0);
   EXPECT_GT(causes.edges->mean, 0.05);
   EXPECT_FALSE(causes.filter);
@@ -208,7 +208,7 @@ TEST(FlickerCauses, AreToldByPixels) {
 // A pixel that is interior in one frame alone is an edge.
 TEST(FlickerCauses, AnInteriorPixelIsOneInBothFrames) {
   const Image reference = noise(4, 1);
-  const ReferenceView striped = truth_of(reference, stripes(4)), none = truth_of(reference, everywhere(4, 0.0F));
+  const ReferenceView striped = view_of(reference, stripes(4)), none = view_of(reference, everywhere(4, 0.0F));
   const FlickerCauses causes = flicker_causes(reference, reference, striped, none, 1.0F);
   EXPECT_FALSE(causes.shading);
   EXPECT_EQ(causes.edges->mean, 0.0);
@@ -216,20 +216,20 @@ TEST(FlickerCauses, AnInteriorPixelIsOneInBothFrames) {
 
 // The bound's own flicker is the filter's; a picture that is the bound has none of its own, and one that is the
 // reference has the filter's, the other way round.
-TEST(FlickerCauses, FilterAndMethodAreToldByTheBound) {
+TEST(FlickerCauses, FilterAndMethodAreSeparatedByTheBound) {
   const Image old_reference = noise(4, 1), reference = noise(4, 2);
   const Image old_bound = noise(4, 3), bound = noise(4, 4);
   const Image all(4, 4, 1, 1.0F);
-  ReferenceView before = truth_of(old_reference, everywhere(4, 1.0F)), now = truth_of(reference, everywhere(4, 1.0F));
+  ReferenceView before = view_of(old_reference, everywhere(4, 1.0F)), now = view_of(reference, everywhere(4, 1.0F));
   before.bound = BoundPicture{.picture = old_bound, .pixels = all};
   now.bound = BoundPicture{.picture = bound, .pixels = all};
   const FlickerCauses same = flicker_causes(old_bound, bound, before, now, 1.0F);
   EXPECT_GT(same.filter->mean, 0.1);
   EXPECT_GE(same.filter->p99, same.filter->mean);
   EXPECT_EQ(same.method->mean, 0.0);
-  const FlickerCauses truth = flicker_causes(old_reference, reference, before, now, 1.0F);
-  EXPECT_EQ(truth.shading->mean, 0.0);
-  EXPECT_NEAR(truth.method->mean, same.filter->mean, 1e-12);
+  const FlickerCauses own = flicker_causes(old_reference, reference, before, now, 1.0F);
+  EXPECT_EQ(own.shading->mean, 0.0);
+  EXPECT_NEAR(own.method->mean, same.filter->mean, 1e-12);
 }
 
 }  // namespace

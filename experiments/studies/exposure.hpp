@@ -14,7 +14,7 @@ namespace footprint {
 /// coverage.
 [[nodiscard]] float automatic_exposure(const Image& reference);
 
-/// What is given, else the scene's own, else the automatic one of its first reference.
+/// The given exposure, else the scene's own, else the automatic one of its first reference.
 [[nodiscard]] Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene,
                                        const Image& first_reference);
 

@@ -1,4 +1,4 @@
-// Pixels that count in both frames, and changes held against the reference's or against those of `exact`.
+// Pixels that count in both frames, and changes relative to the reference's or to those of `exact`.
 #include "experiments/studies/flicker_causes.hpp"
 
 #include "renderer/image/metrics.hpp"

@@ -1,4 +1,4 @@
-// What flicker is made of (docs/metrics.md): the same parts of the picture and the same bound as of errors, over two
+// The causes of flicker (docs/metrics.md): the same parts of the picture and the same bound as of errors, over two
 // frames.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace footprint {
 
-/// Of a method that drew `before` and then `picture`.
+/// The causes for a method that rendered `before` and then `picture`.
 [[nodiscard]] FlickerCauses flicker_causes(const Image& before, const Image& picture,
                                            const ReferenceView& target_before, const ReferenceView& target,
                                            float exposure);

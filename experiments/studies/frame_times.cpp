@@ -42,7 +42,7 @@ void set_no_times(Record& record) {
   record.ratio_to_direct = unknown_ratio;
 }
 
-// Of fewer rounds there is no interval (median_interval).
+// Fewer rounds have no interval (median_interval).
 bool is_ratio_known(const std::vector<double>& times, const std::vector<double>& unit) {
   constexpr std::size_t fewest = 6;
   constexpr double narrow = 0.03;

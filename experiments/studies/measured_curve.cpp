@@ -23,7 +23,7 @@ int timed_frames(int spp) { return std::min(spp, most_timed); }
 
 constexpr int curve_rounds = 5;
 
-// The counts that are timed, each once however many points of the curve it stands for.
+// The counts that are timed, each once, even if several points of the curve share it.
 std::set<int> timed_counts(std::span<const int> counts) {
   std::set<int> timed;
   for (const int spp : counts) timed.insert(timed_frames(spp));

@@ -9,7 +9,7 @@
 
 namespace footprint {
 
-/// What errors of one view are taken against.
+/// The reference of errors in one view.
 struct ErrorTarget {
   const View& view;
   double distance;         ///< its name in the curve
@@ -22,7 +22,7 @@ struct ErrorTarget {
 [[nodiscard]] std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
                                                              const ErrorTarget& target, ProgressParts& progress);
 
-/// What it weighs in progress, in samples a pixel.
+/// The curve's weight in progress, in samples per pixel.
 [[nodiscard]] double curve_weight(std::span<const int> counts);
 
 }  // namespace footprint

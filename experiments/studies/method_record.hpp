@@ -9,25 +9,25 @@
 
 namespace footprint {
 
-/// What is drawn of a method to be measured.
+/// The images of a method that are measured.
 struct MethodPictures {
   Image frame;  ///< one frame
-  /// The method's finest level, supersampled, as converged as the reference; none: what it tells of the error is left
-  /// out, and so is that of the environment's lookup.
+  /// The method's finest level, supersampled, as converged as the reference; none: the errors that need it are
+  /// left out, and so is that of the environment's lookup.
   std::optional<Image> finest;
 };
 
 /// Fills records. Stores what a method needs to be drawn otherwise for all views.
 class MethodMeasurer {
  public:
-  /// Keeps the stage's address.
+  /// Stores the stage's address.
   explicit MethodMeasurer(const Stage& stage) : stage_(stage) {}
 
   /// The row of a method that has no figures, for the reason given.
   [[nodiscard]] Record failed(const StagedMethod& method, const ReferenceView& target, const Error& why) const;
 
-  /// What is known of the method before it is timed or held against other frames. Errors (usage): a pixel of a picture
-  /// that is no finite number, named.
+  /// Measures the method before it is timed or compared with other frames. Errors (usage) name a pixel whose value is
+  /// not finite.
   [[nodiscard]] Record measure(const StagedMethod& method, const MethodPictures& pictures, const ReferenceView& target,
                                float exposure);
 

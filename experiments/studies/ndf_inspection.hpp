@@ -31,7 +31,7 @@ struct NdfSource {
 /// The material with `lobe` in place of its own distribution and roughness.
 [[nodiscard]] Material with_lobe(Material material, const Lobe& lobe);
 
-/// What `footprint ndf` is asked for.
+/// The settings of `footprint ndf`.
 struct NdfSettings {
   RunSettings run;  ///< no methods: every method of the registry that takes the material; a tile is one of directions
   FootprintRect footprint;

@@ -1,4 +1,4 @@
-// How far `footprint ndf` says that it is: by every method, forwards alone and to the end.
+// The progress of `footprint ndf`: it only increases, reaches the end, and every method contributes.
 #include "experiments/studies/ndf_inspection.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Reports = std::vector<std::pair<std::string, double>>;
 
-// What was reported first that lies before what was reported already, or beyond the whole.
+// The first report that goes back behind an earlier one, or beyond the whole.
 std::optional<std::string> backward_step(const Reports& reports) {
   double done = 0.0;
   for (const auto& [what, fraction] : reports) {

@@ -41,7 +41,7 @@ std::vector<float> differences(std::span<const float> a, std::span<const float> 
   return out;
 }
 
-// A strip of one caption row: the pictures and what stands under them.
+// A strip with one row of captions: the images and the captions under them.
 struct Row {
   std::vector<Image> pictures;
   std::vector<std::string> captions;
@@ -54,9 +54,9 @@ struct Row {
 
 }  // namespace
 
-void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& truth,
+void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& exact,
                         std::span<const NdfPicture> methods, NdfResults& results) {
-  const float scale = *std::ranges::max_element(truth.densities);
+  const float scale = *std::ranges::max_element(exact.densities);
   results.scale = scale;
   const auto write = [&](const NdfPicture& picture, NdfImages& images) {
     images.density = "images/" + picture.stem + ".exr";
@@ -67,13 +67,13 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     return shown;
   };
   Row densities, errors;
-  densities.add(write(truth, results.truth.images), truth.caption);
+  densities.add(write(exact, results.exact.images), exact.caption);
   errors.add(Image(size, size, 3, around), "| method - truth |");
   for (std::size_t i = 0; i < methods.size(); ++i) {
     NdfImages& images = results.records.at(i).images;
     densities.add(write(methods[i], images), methods[i].caption);
     images.difference = "images/" + methods[i].stem + "_difference.png";
-    errors.add(colored(size, differences(methods[i].densities, truth.densities), scale), methods[i].caption);
+    errors.add(colored(size, differences(methods[i].densities, exact.densities), scale), methods[i].caption);
     write_png(folder / images.difference, errors.pictures.back());
   }
   const Image strip =

@@ -17,10 +17,10 @@ struct NdfPicture {
   std::vector<float> densities;
 };
 
-/// Writes images/STEM.exr and .png for the truth and every method, images/STEM_difference.png for every method, and
+/// Writes images/STEM.exr and .png for the exact NDF and every method, images/STEM_difference.png for every method, and
 /// ndf.png, all of them side by side over the scale, below `folder`; fills in the paths and the scale of `results`,
-/// whose records are those of `methods`. The scale runs from 0 to the truth's largest density.
-void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& truth,
+/// whose records are those of `methods`. The scale runs from 0 to the exact NDF's largest density.
+void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& exact,
                         std::span<const NdfPicture> methods, NdfResults& results);
 
 }  // namespace footprint

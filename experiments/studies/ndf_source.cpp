@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 10> map_extensions{".exr",  ".png", ".jpg
                                                           ".tiff", ".bmp", ".webp", ".hdr",  ".tga"};
 constexpr double default_exponent = 64.0;
 
-// By its name, or, where that tells nothing, because it is a file and no scene.
+// By its extension, or because it is a file and not a scene.
 bool names_a_map(const std::string& path) {
   const std::string extension = lower_extension(path);
   if (std::ranges::find(map_extensions, extension) != map_extensions.end()) return true;

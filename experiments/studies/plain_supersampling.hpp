@@ -1,5 +1,5 @@
 // Plain supersampling as a program without any method would do it: the mean of whole frames whose samples lie elsewhere
-// in the pixel. What methods are compared with at equal work: one sample a pixel is one frame, at pixel centres.
+// in the pixel. What methods are compared with at equal work: one sample per pixel is one frame, at pixel centres.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace footprint {
 
-/// Where in the pixel the samples lie, from its centre, in pixels, -0.5 to 0.5: the first `count` points of a (0, 2)-
+/// The positions of the samples, from the pixel's centre, in pixels, -0.5 to 0.5: the first `count` points of a (0, 2)-
 /// sequence (Sobol's, scrambled by the seed), so that more samples begin with those of fewer, and every power of two of
-/// them lies one to a cell of each grid of so many cells. One frame alone is drawn at pixel centres, not at the first.
+/// them has one sample in each cell of every grid of as many cells. A single frame is drawn at pixel centres.
 [[nodiscard]] std::vector<glm::dvec2> frame_offsets(int count, std::uint64_t seed);
 
 /// The mean of frames, which grows one by one.

@@ -33,7 +33,7 @@ Image mean_of(const Scene& scene, const char* method, int edge, std::span<const 
   return mean.mean();
 }
 
-// Of `direct`, over a square with random normals.
+// Frames of `direct` over a square with random normals.
 Image mean_at(int texels, int edge, std::span<const glm::dvec2> offsets) {
   return mean_of(square_scene(random_normals(texels, texels, 0.5F, 1), {}), "direct", edge, offsets);
 }

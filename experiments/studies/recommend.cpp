@@ -22,7 +22,7 @@
 namespace footprint {
 namespace {
 
-constexpr int coarse_samples = 32, coarse_repeats = 3;  // two passes, which is what tells the noise
+constexpr int coarse_samples = 32, coarse_repeats = 3;  // two passes, for an estimate of the noise
 constexpr int smallest_coarse_side = 128;               // pixels; a smaller frame is drawn as it is
 constexpr FootprintFilter plain_filter{FootprintFilterKind::trilinear, 1};
 
@@ -34,7 +34,7 @@ struct FilterRun {
   bool coarse = false;
 };
 
-// What a method under a filter showed at each distance.
+// The records of a method under a filter at each distance.
 using Records = std::vector<const Record*>;
 
 Records records_of(const FilterRun& run, const std::string& method) {
@@ -53,19 +53,19 @@ bool has_pixels(const Record& record, std::size_t material, bool coarse) {
 }
 
 // The distances at which a material shows enough pixels in every run, as indices.
-std::vector<std::size_t> telling_distances(const std::vector<FilterRun>& runs, std::size_t material) {
-  std::vector<std::size_t> telling;
+std::vector<std::size_t> distances_with_enough_pixels(const std::vector<FilterRun>& runs, std::size_t material) {
+  std::vector<std::size_t> found;
   const std::size_t count = distances_of(runs.front().results).size();
   for (std::size_t d = 0; d < count; ++d) {
     const double distance = distances_of(runs.front().results)[d];
-    const bool tells = std::ranges::all_of(runs, [&](const FilterRun& run) {
+    const bool enough = std::ranges::all_of(runs, [&](const FilterRun& run) {
       const DistanceRecords records = records_at(run.results, distance);
       return std::ranges::all_of(records,
                                  [&](const Record& r) { return r.failure || has_pixels(r, material, run.coarse); });
     });
-    if (tells) telling.push_back(d);
+    if (enough) found.push_back(d);
   }
-  return telling;
+  return found;
 }
 
 double mean_of(const Records& records, const std::vector<std::size_t>& at, const auto& value) {
@@ -130,7 +130,7 @@ std::vector<Candidate> candidates_of(const std::vector<FilterRun>& runs, const s
   return candidates;
 }
 
-// Half of each side, where that leaves enough to tell candidates by.
+// Half of each side, if that leaves enough pixels to separate candidates.
 glm::ivec2 coarse_size(const RunSettings& run, const Scene& scene) {
   const glm::ivec2 full = frame_size(scene, run.view.size);
   return std::min(full.x, full.y) < 2 * smallest_coarse_side ? full : full / 2;
@@ -155,7 +155,7 @@ RunSettings settings_of(const RecommendSettings& settings, const FootprintFilter
   return run;
 }
 
-// Plain `direct` is what everything is held against.
+// Everything is compared with plain `direct`.
 std::vector<MethodSpec> with_plain(std::vector<MethodSpec> methods, const FootprintFilter& filter) {
   if (filter == plain_filter && std::ranges::find(methods, "direct", &MethodSpec::text) == methods.end())
     methods.insert(methods.begin(), {.text = "direct", .name = "direct", .options = {}});
@@ -187,7 +187,7 @@ std::optional<std::array<double, 2>> closer_than_plain(const std::vector<FilterR
   return std::array<double, 2>{sum[0] / static_cast<double>(count), sum[1] / static_cast<double>(count)};
 }
 
-// What writes the chosen one's maps; empty where it has none to write.
+// The command that writes the chosen method's maps; empty if it has no maps.
 std::string command_of(const RecommendSettings& settings, const MaterialAdvice& advice) {
   if (!advice.choice.chosen) return {};
   const Candidate& chosen = advice.candidates[*advice.choice.chosen];
@@ -197,7 +197,7 @@ std::string command_of(const RecommendSettings& settings, const MaterialAdvice& 
 }
 
 MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<FilterRun>& runs, std::size_t material) {
-  const std::vector<std::size_t> at = telling_distances(runs, material);
+  const std::vector<std::size_t> at = distances_with_enough_pixels(runs, material);
   const std::vector<double> distances = distances_of(runs.front().results);
   const Records direct = records_of(runs.front(), methods_of(runs.front().results).front());
   MaterialAdvice advice;
@@ -280,7 +280,7 @@ class Advisor {
     }
   }
 
-  // Whether no method under a filter can keep the limit of cost, because `direct` alone does not: a few frames tell.
+  // Whether no method under a filter can pass the limit of cost, because a few frames show that even `direct` does not.
   bool is_too_expensive(const FootprintFilter& filter, const std::filesystem::path& own, const Progress& progress,
                         SharedWork& shared) {
     if (!settings_.limits.max_cost || filter == plain_filter) return false;
@@ -333,7 +333,7 @@ class Advisor {
     return runs;
   }
 
-  // Of each filter the methods that some material may yet take.
+  // The methods under each filter that some material may still use.
   [[nodiscard]] MethodsByFilter still_in_question(const std::vector<FilterRun>& runs,
                                                   const MethodsByFilter& methods) const {
     MethodsByFilter wanted(methods.size());
@@ -349,7 +349,7 @@ class Advisor {
                                const std::string& filter) const {
     if (method == "direct" && filter == footprint_filter_text(plain_filter)) return true;
     for (std::size_t material = 0; material < material_count(runs); ++material) {
-      const auto candidates = candidates_of(runs, telling_distances(runs, material), material);
+      const auto candidates = candidates_of(runs, distances_with_enough_pixels(runs, material), material);
       for (const std::size_t i : contenders(candidates, settings_.limits, coarse_error_share, coarse_cost_share)) {
         if (candidates[i].method == method && candidates[i].footprint == filter) return true;
       }
@@ -377,7 +377,7 @@ class Advisor {
     return result;
   }
 
-  // Of what is chosen for any material, at every distance, and of plain `direct`.
+  // Adds the images of all chosen candidates at every distance, and of plain `direct`.
   static void add_pictures(const std::vector<FilterRun>& runs, Recommendation& result) {
     for (const FilterRun& run : runs) {
       const std::string filter = footprint_filter_text(run.filter);

@@ -14,23 +14,23 @@
 
 namespace footprint {
 
-/// What is asked for.
+/// The settings of `footprint recommend`.
 struct RecommendSettings {
-  RunSettings run;                       ///< its methods are the candidates; its own footprint filter has no say
+  RunSettings run;                       ///< its methods are the candidates; ignores its own footprint filter
   std::vector<FootprintFilter> filters;  ///< under each of which every method is a candidate
   Limits limits;
   bool exhaustive = false;        ///< measure every candidate in full
   GpuCompiler gpu_compiler = {};  ///< if the limit is of a GPU
 };
 
-/// How far the coarse run's errors and costs are trusted: what is behind another by more than that in both is dropped.
+/// The trust in the coarse run's errors and costs: a candidate that is worse by more than this in both is dropped.
 inline constexpr double coarse_error_share = 0.15, coarse_cost_share = 0.25;
 
-/// Who is told while it runs.
+/// Receives results while it runs.
 struct RecommendListener {
   /// Writes the report of a full run into its folder.
   std::function<void(Results& results, const std::filesystem::path& folder)> results;
-  /// Sees what the coarse pass comes to, before the full one.
+  /// Receives the answer of the coarse pass, before the full one.
   std::function<void(const Recommendation& answer)> first_answer = [](const Recommendation& /*answer*/) {};
 };
 

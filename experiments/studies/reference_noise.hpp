@@ -1,4 +1,4 @@
-// What the reference's own noise does to the figures that are measured against it (docs/metrics.md).
+// The effect of the reference's own noise on the figures that are measured against it (docs/metrics.md).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What pictures over the same few samples say of one over many.
+// Images over the same few samples, compared with one over many.
 #include "experiments/studies/reference_noise.hpp"
 
 #include <gmock/gmock.h>

@@ -19,11 +19,11 @@
 namespace footprint {
 namespace {
 
-constexpr double least_noise = 1e-5;         // that is asked for unasked
+constexpr double least_noise = 1e-5;         // smallest automatic noise
 constexpr double printed_difference = 1e-3;  // of an error, in three figures
 constexpr double automatic_work = 1.0;       // samples beyond the first, in multiples of those
-constexpr double automatic_samples = 16e6;   // likewise, of all pixels: a second or two
-constexpr double surrounded_share = 0.25;  // of that under an environment: its samples draw directions, and take longer
+constexpr double automatic_samples = 16e6;   // the same, over all pixels: a second or two
+constexpr double environment_share = 0.25;   // of that under an environment, whose samples take longer
 constexpr double unbounded_work = 1e9;
 constexpr double pixels_lit_by_all = 512;  // by each of some 6000 directional lights: about a second a method
 constexpr double interior_weight = 16;     // of progress, in samples of the reference
@@ -33,13 +33,13 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Unasked: as many samples as the picture has, and more where that is little.
-double most_work(int spp, const glm::ivec2& size, bool surrounded) {
+// Without a requested noise: as many samples as the image has, and more if those are few.
+double max_extra_work(int spp, const glm::ivec2& size, bool has_environment) {
   const double first = static_cast<double>(spp) * size.x * size.y;
-  return (surrounded ? surrounded_share : 1.0) * std::max(automatic_work, automatic_samples / first);
+  return (has_environment ? environment_share : 1.0) * std::max(automatic_work, automatic_samples / first);
 }
 
-// The least rectangle that holds the object.
+// The smallest rectangle around the object.
 Tile object_part(const Image& reference) {
   const Image pixels = object_pixels(reference);
   glm::ivec2 lower(pixels.width, pixels.height), upper(0);
@@ -168,28 +168,29 @@ SharedReferences::OfView& ReferenceRenderer::begun_reference(const RunView& at, 
 // The reference over the samples of finest levels. Where its samples draw directions from an environment, their noise
 // is its own: methods look the environment up, and a difference of the two would only add it.
 Image ReferenceRenderer::samples_of_finest_levels(const View& view, const Image& whole, const Progress& progress) {
-  const ReferenceSettings& asked = settings_.reference;
-  if (has(stage_.effects(), Effect::environment_light) && asked.environment == EnvironmentUse::sampled) return {};
-  const int spp = finest_samples(asked);
-  if (spp == asked.spp || !asked.by_cause) return whole;
-  return finest_mean(stage_.reference(), view, asked, progress);
+  const ReferenceSettings& settings = settings_.reference;
+  if (has(stage_.effects(), Effect::environment_light) && settings.environment == EnvironmentUse::sampled) return {};
+  const int spp = finest_samples(settings);
+  if (spp == settings.spp || !settings.by_cause) return whole;
+  return finest_mean(stage_.reference(), view, settings, progress);
 }
 
 // Refines the reference to the requested noise, unless it was refined already.
 void ReferenceRenderer::refine_reference(SharedReferences::OfView& begun, const View& view, const Progress& progress) {
   if (begun.samples > 0) return;
-  const ReferenceSettings& asked = settings_.reference;
-  begun.samples = asked.spp;
-  if (!asked.by_noise || asked.fixed_spp) return;
+  const ReferenceSettings& settings = settings_.reference;
+  begun.samples = settings.spp;
+  if (!settings.by_noise || settings.fixed_spp) return;
   const auto begin = std::chrono::steady_clock::now();
-  const bool surrounded = has(stage_.effects(), Effect::environment_light);
+  const bool has_environment = has(stage_.effects(), Effect::environment_light);
   const double noise = noise_wanted(begun, view);
   shared_->wanted_noise[begun.at] = noise;
-  const Convergence wanted{.noise = noise,
-                           .exposure = exposure_,
-                           .spp_max = asked.spp_max,
-                           .most_work = asked.noise ? unbounded_work : most_work(asked.spp, view.size, surrounded)};
-  begun.samples = converge(stage_.reference(), begun.reference, view, asked.seed, wanted, progress);
+  const Convergence wanted{
+      .noise = noise,
+      .exposure = exposure_,
+      .spp_max = settings.spp_max,
+      .max_extra_work = settings.noise ? unbounded_work : max_extra_work(settings.spp, view.size, has_environment)};
+  begun.samples = converge(stage_.reference(), begun.reference, view, settings.seed, wanted, progress);
   begun.seconds += seconds_since(begin);
 }
 
@@ -239,7 +240,7 @@ void ReferenceRenderer::write_files(ReferenceView& target) const {
   write_exr(folder_ / target.files.standard_error, target.reference.standard_error);
 }
 
-// Every figure is over the pixels that are covered; what is left out stands in the warnings.
+// Every figure is over the pixels that are covered; the warnings say how many are left out.
 void ReferenceRenderer::leave_out_unresolved(ReferenceView& target) const {
   target.whole = target.reference.mean;
   target.unresolved = unresolved(target.reference, exposure_);

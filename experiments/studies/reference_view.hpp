@@ -1,4 +1,4 @@
-// What a run knows of one view besides its methods: the reference and how far it can be trusted, which
+// The part of one view besides its methods: the reference and its noise, which
 // pixels count for what, the bound, and what plain supersampling reaches.
 #pragma once
 
@@ -21,7 +21,7 @@ struct OtherReferenceImage {
   std::optional<double> noise_floor;
 };
 
-/// The pixels that are lit by all of an environment, to tell what the lookup by lobes costs.
+/// The pixels that are lit by all of an environment, for the error of the lookup by lobes.
 struct LightPart {
   std::vector<Tile> tiles;
   Image pixels;  ///< a mask of the interior ones there
@@ -32,15 +32,15 @@ struct ReferenceFiles {
   std::string reference, standard_error, interior;
 };
 
-/// The samples a pixel of methods' finest levels: few suffice, since the reference is drawn with the same ones and what
-/// they have in common drops out (docs/metrics.md); all that were asked for, where they were.
+/// The samples per pixel of methods' finest levels. Few suffice, because the reference uses the same ones and their
+/// common noise cancels (docs/metrics.md); a fixed number is used as it is.
 [[nodiscard]] int finest_samples(const ReferenceSettings& settings);
 
 /// The mean over `finest_samples`: of the reference, or of a method's finest level, by the same samples.
 [[nodiscard]] Image finest_mean(const Supersampler& sampler, const View& view, const ReferenceSettings& settings,
                                 const Progress& progress);
 
-/// What is known of one view.
+/// The reference of one view with its masks, bound and curve.
 struct ReferenceView {
   std::size_t index = 0;  ///< of the view in the run
   RunView at;
@@ -49,12 +49,12 @@ struct ReferenceView {
   Image whole;             ///< its mean with them
   Image first;             ///< its mean over the samples that finest levels are drawn with, without them; or empty
   Image unresolved;        ///< a mask of them
-  double samples = 0;      ///< a pixel, mean over the picture
+  double samples = 0;      ///< per pixel, mean over the image
   double seconds = 0;      ///< that the reference took
   std::optional<double> wanted_noise;  ///< noise floor that it was refined to; none: it was not refined
   std::optional<double> noise_floor, shading_floor;
   PixelParts parts;
-  std::vector<Image> materials;  ///< masks of the interior pixels of each material; empty where they are not told apart
+  std::vector<Image> materials;  ///< masks of the interior pixels of each material; empty if they are not separated
   std::optional<BoundPicture> bound;
   LightPart light;                         ///< empty without an environment
   std::optional<double> highlight_energy;  ///< of the reference
@@ -78,7 +78,7 @@ struct SharedReferences {
     std::optional<Interior> interior;
   };
   std::vector<OfView> views;
-  std::map<RunView, double> wanted_noise;  ///< the noise floor that the first comparison asked for
+  std::map<RunView, double> wanted_noise;  ///< the noise floor that the first comparison needs
 
   /// Null if there is none.
   [[nodiscard]] OfView* of(const RunView& at);

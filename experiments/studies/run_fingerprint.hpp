@@ -16,7 +16,7 @@ namespace footprint {
 /// 16 hexadecimal digits: equal fingerprints mean equal figures at equal distances, except for times.
 /// maker: program and renderer (maker_of_work).
 /// content: scene_content of `scene`.
-/// more: whatever else the figures depend on.
+/// more: everything else that the figures depend on.
 [[nodiscard]] std::string run_fingerprint(std::string_view maker, const RunSettings& settings, const Scene& scene,
                                           const std::string& content, const std::vector<std::string>& more = {});
 

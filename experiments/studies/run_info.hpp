@@ -1,4 +1,4 @@
-// What every report says of where it was made and of its scene.
+// The part of every report on its machine, program and scene.
 #pragma once
 
 #include "experiments/studies/exposure.hpp"

@@ -1,4 +1,4 @@
-// Which picture is closer beyond noise, held against references whose noise and true colours are known.
+// Which image is closer beyond noise, compared with references whose noise and true colours are known.
 #include "experiments/studies/score.hpp"
 
 #include <gtest/gtest.h>
@@ -19,9 +19,9 @@ Image even(float value) {
   return image;
 }
 
-// An even reference of value `truth` with noise that is the same in all channels, or each channel's own.
-Supersampled noisy(float truth, bool same_in_all) {
-  Supersampled reference{.spp = 64, .mean = even(truth), .standard_error = Image(edge, edge, 3), .halves = {}};
+// An even reference of this value with noise that is the same in all channels, or each channel's own.
+Supersampled noisy(float value, bool same_in_all) {
+  Supersampled reference{.spp = 64, .mean = even(value), .standard_error = Image(edge, edge, 3), .halves = {}};
   std::mt19937 random(7);
   std::normal_distribution<float> normal(0.0F, channel_noise);
   for (std::size_t i = 0; i < reference.mean.texel_count(); ++i) {
@@ -40,7 +40,7 @@ CloserShares shares_of(const Image& a, const Image& b, const Supersampled& refer
 }
 
 TEST(Significance, NoiseAloneDecidesAlmostNothing) {
-  // Both are equally far from the truth: whatever is decided is wrong. 0.27% lie beyond three standard errors.
+  // Both are equally far from the reference, so that any decision is wrong. 0.27% lie beyond three standard errors.
   const CloserShares together = shares_of(even(0.45F), even(0.55F), noisy(0.5F, true));
   EXPECT_LT(together.a + together.b, 0.004);
   EXPECT_GT(together.a + together.b, 0.0015);
@@ -49,7 +49,7 @@ TEST(Significance, NoiseAloneDecidesAlmostNothing) {
 }
 
 TEST(Significance, WhatIsFarBeyondNoiseIsDecided) {
-  // The middle of both lies 6 standard errors off the truth: of three more than 99% are sure.
+  // The middle of both is 6 standard errors off the reference: of three more than 99% are sure.
   const CloserShares shares = shares_of(even(0.45F), even(0.79F), noisy(0.5F, true));
   EXPECT_GT(shares.a, 0.99);
   EXPECT_EQ(shares.b, 0.0);
@@ -58,7 +58,7 @@ TEST(Significance, WhatIsFarBeyondNoiseIsDecided) {
   EXPECT_EQ(turned.b, shares.a);
 }
 
-TEST(Significance, EqualPicturesAndThoseThatADisplayClipsAreNotToldApart) {
+TEST(Significance, EqualAndClippedPicturesDoNotDiffer) {
   const Supersampled reference = noisy(0.5F, true);
   const CloserShares equal = shares_of(even(0.4F), even(0.4F), reference);
   EXPECT_EQ(equal.a + equal.b, 0.0);

@@ -29,8 +29,8 @@ void require_upload(const Prefiltered& prefiltered) {
   }
 }
 
-// A method on the GPU, baked and uploaded one material after the other, so that what is baked lies in memory twice for
-// one texture at most. A frame build may read what was baked; of every other method the GPU has all that a frame
+// A method on the GPU, baked and uploaded one material after the other, so that at most one texture is in memory
+// twice. A frame build may read what was baked; of every other method the GPU has all that a frame
 // needs.
 PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
                                const Method& method, const MethodSpec& spec, const BakeCache* cache,

@@ -1,4 +1,4 @@
-// Everything that a run over one scene holds on the GPU: context, scene, and the methods ready to draw.
+// The part of a run over one scene that is on the GPU: context, scene, and the methods ready to draw.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@
 
 namespace footprint {
 
-/// Pictures as large as the frame that most runs hold at once: the frame, and two while it is written.
+/// Images of the frame's size in memory at once in most runs: the frame, and two while it is written.
 inline constexpr int pictures_of_a_frame = 3;
 
 /// The size of a frame: `wanted`, else scene.toml's, else 512 wide in the aspect of the camera (square without one).
@@ -32,10 +32,10 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The footprint filter: the settings', else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
 
-/// How a program draws frames of a scene.
+/// The settings of a program that draws frames of a scene.
 [[nodiscard]] ProgramSettings frame_program(const Scene& scene, const FootprintFilter& filter);
 
-/// What becomes of a method that this machine has no memory for, or whose textures or program its OpenGL refuses.
+/// The handling of a method that exceeds memory, or whose textures or program OpenGL refuses.
 enum class Refusal {
   ends_the_run,  ///< an error
   keeps_a_row    ///< the method is staged without maps or frames, and says why (StagedMethod::refusal)
@@ -52,10 +52,10 @@ enum class Unit {
 [[nodiscard]] std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
                                               const std::function<void()>& action);
 
-/// Where slow work is kept between runs; none where the settings name no folder.
+/// The cache of slow work; none if the settings have no folder for it.
 [[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
 
-/// Errors (machine): so many pictures (RGBA, 32-bit floats) of this size are more than memory holds.
+/// Errors (machine): so many images (RGBA, 32-bit floats) of this size exceed memory.
 void require_pictures(const glm::ivec2& size, int count);
 
 /// The maps of a method in memory and on the GPU, which serve frames of every size under every footprint filter.
@@ -64,7 +64,7 @@ struct PreparedMethod {
   std::unique_ptr<GpuMethod> gpu;
 };
 
-/// What stages over one scene share: its context, its maps and meshes on the GPU, and the methods that were prepared
+/// Shared by stages over one scene: its context, its maps and meshes on the GPU, and the methods that were prepared
 /// for them. The first stage fills it.
 struct PreparedScene {
   PreparedScene(Scene loaded, const RunSettings& settings);
@@ -143,11 +143,11 @@ class Stage {
   /// Another method over the same scene.
   [[nodiscard]] StagedMethod stage(const MethodSpec& method, const Progress& progress) const;
 
-  /// What finds the pixels in which the reference sees one smooth piece of surface.
+  /// Finds the pixels in which the reference sees one smooth piece of surface.
   [[nodiscard]] InteriorFinder interior_finder() const;
 
-  /// A method's frames with the environment as directional lights, each of which is shaded: what the lookup by lobes
-  /// stands for.
+  /// A method's frames with the environment as directional lights, each of which is shaded: the sum that
+  /// the lookup by lobes approximates.
   [[nodiscard]] FrameRenderer dense_frames(const StagedMethod& method) const;
 
   /// A method's frames whose pixels are counts (PixelWork, PixelTrips).

@@ -1,4 +1,4 @@
-// The views of a run, which are its distances or the frames of a path: where the camera stands, where the lights are.
+// The views of a run, which are its distances or the frames of a path: the positions of camera and lights.
 #pragma once
 
 #include <compare>
@@ -32,7 +32,7 @@ struct RunView {
 [[nodiscard]] std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view,
                                     const std::string& what);
 
-/// What a path turns around, unit: the camera's up where nothing is asked for.
+/// The axis of a path, unit: the camera's up by default.
 [[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);
 
 /// The camera in a view.

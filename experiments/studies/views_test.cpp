@@ -1,4 +1,4 @@
-// Where camera and lights are along a path, on a scene without a file.
+// The positions of camera and lights along a path, on a scene without a file.
 #include "experiments/studies/views.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST(RunViews, ShadowsCountWhereAnyFrameCallsForThem) {
   run.path.degrees = 180;
   EXPECT_EQ(scene_for_path(run, scene).shadows.cast, true);
   scene.shadows.cast = false;
-  EXPECT_EQ(scene_for_path(run, scene).shadows.cast, false) << "what the scene says, holds";
+  EXPECT_EQ(scene_for_path(run, scene).shadows.cast, false) << "the scene's own setting has priority";
 }
 
 }  // namespace

@@ -217,8 +217,8 @@ class AtanasovBins final : public Method {
                         "Under an environment: so many normals are drawn from under a pixel (section 2.1), each a lobe "
                         "of its own; of fewer texels all are taken."),
            word_option("storage", {"fp16", "fp32"},
-                       "What the means of normals of 4 x 4 texels and more are kept in, the only numbers that are no "
-                       "integers, or are one to a bin: what diffuse light is reflected about over wide footprints.")},
+                       "Format of the means of normals over 4 x 4 texels and more, about which diffuse light is "
+                       "reflected over wide footprints. All other numbers are integers, or one per bin.")},
       .honours = map_effects_but({Effect::normal_layers}),
       .lobes_as_given = true,
       .slow_precompute = true,

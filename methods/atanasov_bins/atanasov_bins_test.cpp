@@ -38,10 +38,10 @@ TEST_P(OverBorders, BinsDensityIsAPlainSum) {
     const Image normals = test_normals(size.x, size.y, 0.5F, m);
     const std::vector<Parallelogram> footprints = footprints_on(glm::dvec2(size));
     std::vector<std::array<glm::vec4, 3>> inputs;
-    std::vector<double> truth;
+    std::vector<double> exact;
     for (const Parallelogram& p : footprints) {
       const std::vector<double> shares = shares_of_bins(normals, p, GetParam(), m);
-      truth.insert(truth.end(), shares.begin(), shares.end());
+      exact.insert(exact.end(), shares.begin(), shares.end());
       for (std::uint32_t bin = 0; bin < m * m; ++bin)
         inputs.push_back(input_of(p, size, square_to_hemisphere((glm::dvec2(bin % m, bin / m) + 0.5) / double{m})));
     }
@@ -49,9 +49,9 @@ TEST_P(OverBorders, BinsDensityIsAPlainSum) {
         probe_footprints(material_of(normals, GetParam()), {{"m", "15"}, {"roughness", "bin"}, {"border", "texels"}},
                          "vec4(ndf(e, c.xyz))", inputs);
     double energy = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (std::size_t i = 0; i < exact.size(); ++i) {
       // Of the largest density that there may be. The footprint has been through texture coordinates in 32 bits.
-      ASSERT_NEAR(found[i].x * bin_solid_angle(m), truth[i], 1e-5 * (1.0 + 2.0 * size.x / 64.0))
+      ASSERT_NEAR(found[i].x * bin_solid_angle(m), exact[i], 1e-5 * (1.0 + 2.0 * size.x / 64.0))
           << size.x << ", footprint " << i / (m * m) << ", bin " << i % (m * m);
       energy += found[i].x * bin_solid_angle(m);
       if (i % (m * m) != m * m - 1) continue;
@@ -64,7 +64,7 @@ TEST_P(OverBorders, BinsDensityIsAPlainSum) {
 INSTANTIATE_TEST_SUITE_P(Wraps, OverBorders,
                          ::testing::Values(Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge));
 
-// The density of one of the map's corners where a footprint lies elsewhere: what the test above would see.
+// The density of one of the map's corners with a footprint elsewhere: what the test above would see.
 TEST(AtanasovBins, AFootprintElsewhereIsSeen) {
   constexpr int m = 15;
   const Image normals = test_normals(64, 64, 0.5F, m);
@@ -115,18 +115,18 @@ double largest_error(const Image& normals, const std::vector<Parallelogram>& foo
   const Material material = material_of(normals, Wrap::repeat);
   const glm::dvec2 size(normals.width, normals.height);
   std::vector<std::array<glm::vec4, 3>> inputs;
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const Parallelogram& p : footprints) {
     for (const glm::dvec3& direction : some_directions) {
       const glm::dvec3 h = glm::normalize(direction);
       inputs.push_back(input_of(p, size, h));
-      truth.push_back(plain_mean(normals, p, Wrap::repeat, [&](const glm::dvec3& n) { return density(n, h); }));
+      exact.push_back(plain_mean(normals, p, Wrap::repeat, [&](const glm::dvec3& n) { return density(n, h); }));
     }
   }
   const auto found = probe_footprints(material, options, "vec4(ndf(e, c.xyz))", inputs);
   double error = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) error = std::max(error, std::abs(found[i].x - truth[i]));
-  return error / *std::ranges::max_element(truth);
+  for (std::size_t i = 0; i < exact.size(); ++i) error = std::max(error, std::abs(found[i].x - exact[i]));
+  return error / *std::ranges::max_element(exact);
 }
 
 TEST(AtanasovBins, LobesOfASmallFootprintAreAPlainSum) {
@@ -139,7 +139,7 @@ TEST(AtanasovBins, LobesOfASmallFootprintAreAPlainSum) {
   EXPECT_GT(largest_error(normals, small, {{"roughness", "flakes"}, {"alpha", "0.03"}}, flake), 0.05);
 }
 
-// Of a large one the lobe stands about the mean normal of each bin, as wide as that bin's normals make it: the error is
+// In a large one the lobe is about the mean normal of each bin, as wide as that bin's normals make it: the error is
 // that of the bins, and finer ones have less.
 TEST(AtanasovBins, LobesOfALargeFootprintConverge) {
   const Image normals = test_normals(256, 256, 0.4F, 2047);
@@ -156,7 +156,7 @@ TEST(AtanasovBins, LobesOfALargeFootprintConverge) {
 }
 
 // A map of texels without a normal is the surface's own; normals below the horizon are those on the rim.
-TEST(AtanasovBins, HoldsWhatIsNoNormalAndWhatIsBelowTheHorizon) {
+TEST(AtanasovBins, ToleratesInvalidNormalsAndThoseBelowTheHorizon) {
   const Parallelogram all{{32.0, 32.0}, {{64.0, 0.0}, {0.0, 64.0}}};
   Image none = random_normals(64, 64, 0.5F, 2);
   for (std::size_t i = 3; i < none.texels.size(); i += 4) none.texels[i] = 0.0F;

@@ -213,7 +213,7 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
   bool depth_first = isDepthFirst(r, rounds - last);
   Node node = Node(list.root, list.end, ivec2(0), textureSize(bins_map, 0));
   uint begin = list.first;
-  uvec4 kept[most_pending + most_counted];  // a ring of pending nodes, followed by waiting ones
+  uvec4 stored[most_pending + most_counted];  // a ring of pending nodes, followed by waiting ones
   uint begins[most_pending + most_counted];
   int first = 0;
   int pending = 0;
@@ -264,11 +264,11 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
       else nodes += int(counts_a) + int(counts_b);
       if (waits_a) ++pending;
       if (counts_b || waits_b) {
-        kept[slot_b] = packedNode(b);
+        stored[slot_b] = packedNode(b);
         begins[slot_b] = b_begin;
       }
       if (counts_a || waits_a) {
-        kept[slot_a] = packedNode(a);
+        stored[slot_a] = packedNode(a);
         begins[slot_a] = begin;
       }
       rounds -= 1.0 + float(counts_a) + float(counts_b);
@@ -277,7 +277,7 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
         done = pending == 0;
         int slot = depth_first ? (first + pending - 1) & (most_pending - 1) : first;
         if (!depth_first) first = (first + 1) & (most_pending - 1);
-        node = unpackedNode(kept[slot]);
+        node = unpackedNode(stored[slot]);
         begin = begins[slot];
         --pending;
       }
@@ -285,9 +285,9 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
     }
     for (; nodes > 0; --nodes) {
       int i = most_pending + nodes - 1;
-      addNode(sum, r, bin, unpackedNode(kept[i]), begins[i]);
+      addNode(sum, r, bin, unpackedNode(stored[i]), begins[i]);
     }
-    for (; texels > 0; --texels) addOne(sum, r, bin, unpacked(kept[most_pending + most_counted - texels].z));
+    for (; texels > 0; --texels) addOne(sum, r, bin, unpacked(stored[most_pending + most_counted - texels].z));
   }
   finished = finished && done && nodes + texels == 0;
 }

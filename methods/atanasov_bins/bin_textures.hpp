@@ -10,7 +10,7 @@
 namespace footprint::atanasov_bins {
 
 /// A texture of integers, four bytes each, the lowest first. Its rows are as long as the least power of two whose
-/// square holds all of them.
+/// square has room for all of them.
 [[nodiscard]] PrefilteredTexture word_texture(std::string name, std::span<const std::uint32_t> words);
 
 /// Integer i of such a texture.

@@ -45,7 +45,7 @@ Parallelogram turned(const glm::dvec2& centre, const glm::dvec2& sides, double t
   return {centre, {sides.x * along, sides.y * glm::dvec2(-along.y, along.x)}};
 }
 
-// On a map of 1024 texels a side: near squares, long ones, over its border.
+// On a map of 1024 texels per side: near squares, long ones, over its border.
 const std::vector<Parallelogram> large_footprints{
     turned({667.0, 377.0}, {100.0, 110.0}, 0.4), turned({682.0, 342.0}, {400.0, 60.0}, 0.7),
     turned({610.0, 510.0}, {320.0, 300.0}, 0.6), turned({688.0, 328.0}, {1000.0, 40.0}, 1.3),
@@ -61,12 +61,12 @@ Inputs inputs_of(const std::vector<Parallelogram>& footprints, double size, cons
   return inputs;
 }
 
-// Root mean square of the differences over that of the truth.
-double relative_error(std::span<const glm::vec4> found, std::span<const double> truth) {
+// Root mean square of the differences over that of the exact densities.
+double relative_error(std::span<const glm::vec4> found, std::span<const double> exact) {
   double off = 0.0, energy = 0.0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    off += std::pow(found[i].x - truth[i], 2.0);
-    energy += truth[i] * truth[i];
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    off += std::pow(found[i].x - exact[i], 2.0);
+    energy += exact[i] * exact[i];
   }
   return std::sqrt(off / energy);
 }
@@ -88,9 +88,9 @@ std::vector<double> errors_of_bins(Kind kind, const std::string& border) {
       probe_footprints(probed, "return vec4(ndf(e, c.xyz));", inputs_of(large_footprints, 1024.0, middles));
   std::vector<double> errors;
   for (std::size_t i = 0; i < large_footprints.size(); ++i) {
-    std::vector<double> truth = shares_of_bins(normals, large_footprints[i], Wrap::repeat, m);
-    for (double& share : truth) share /= bin_solid_angle(m);
-    errors.push_back(relative_error(std::span(found).subspan(i * truth.size(), truth.size()), truth));
+    std::vector<double> exact = shares_of_bins(normals, large_footprints[i], Wrap::repeat, m);
+    for (double& share : exact) share /= bin_solid_angle(m);
+    errors.push_back(relative_error(std::span(found).subspan(i * exact.size(), exact.size()), exact));
   }
   return errors;
 }
@@ -172,8 +172,8 @@ double error_of_lobes(const Image& normals, const std::vector<Parallelogram>& fo
                                                         inputs_of(footprints, normals.width, directions_about_z()));
   double worst = 0.0;
   for (std::size_t i = 0; i < footprints.size(); ++i) {
-    const std::vector<double> truth = lobes_summed(normals, footprints[i], wrap, lobe);
-    worst = std::max(worst, relative_error(std::span(found).subspan(i * truth.size(), truth.size()), truth));
+    const std::vector<double> exact = lobes_summed(normals, footprints[i], wrap, lobe);
+    worst = std::max(worst, relative_error(std::span(found).subspan(i * exact.size(), exact.size()), exact));
   }
   return worst;
 }

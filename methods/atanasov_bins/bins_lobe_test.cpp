@@ -26,7 +26,7 @@ double from_exact(const Scene& scene) {
       .relative_rmse;
 }
 
-// A few texels a pixel, which are looked at one by one, and thousands, which are counted by lists.
+// A few texels per pixel, which are looked at one by one, and thousands, which are counted by lists.
 TEST(AtanasovLobes, SeveralLobesAreThoseOfEveryTexel) {
   for (const int texels : {48, 768}) {
     Scene scene = square_scene(random_normals(texels, texels, 0.4F, 5), {.brdf = beckmann});

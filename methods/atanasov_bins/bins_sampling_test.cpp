@@ -56,23 +56,23 @@ TEST(AtanasovSampling, ShaderDrawsAsTheTwinDoes) {
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
     const Material material = material_of(normals, wrap);
     std::vector<std::array<glm::vec4, 3>> inputs;
-    std::vector<std::optional<glm::dvec3>> truth;
+    std::vector<std::optional<glm::dvec3>> exact;
     for (Parallelogram p : footprints_on(size)) {
       // The shader has the longer edge first.
       if (glm::length(p.edges[1]) > glm::length(p.edges[0])) std::swap(p.edges[0], p.edges[1]);
       for (const glm::vec4& u : numbers) {
         inputs.push_back(draw_input(p, size, u));
-        truth.push_back(drawn_normal(map, p, wrap, u));
+        exact.push_back(drawn_normal(map, p, wrap, u));
       }
     }
     const auto found = probe_footprints(drawing(material), drawn_by_shader, inputs);
     int others = 0;  // points that 32 bits put into the texel beside
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      const bool same = found[i].w == (truth[i] ? 1.0F : 0.0F) &&
-                        (!truth[i] || glm::length(glm::dvec3(glm::vec3(found[i])) - *truth[i]) < 1e-5);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      const bool same = found[i].w == (exact[i] ? 1.0F : 0.0F) &&
+                        (!exact[i] || glm::length(glm::dvec3(glm::vec3(found[i])) - *exact[i]) < 1e-5);
       if (!same) ++others;
     }
-    EXPECT_LT(others, static_cast<int>(truth.size() / 500));
+    EXPECT_LT(others, static_cast<int>(exact.size() / 500));
   }
 }
 
@@ -119,10 +119,10 @@ TEST(AtanasovSampling, LobesHoldTheShareOfEveryBin) {
   const Material material = material_of(normals, Wrap::repeat);
   const std::vector<Parallelogram> footprints = footprints_on(size);
   std::vector<std::array<glm::vec4, 3>> inputs;
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const Parallelogram& p : footprints) {
     const std::vector<double> shares = shares_of_bins(normals, p, Wrap::repeat, bins_across);
-    truth.insert(truth.end(), shares.begin(), shares.end());
+    exact.insert(exact.end(), shares.begin(), shares.end());
     for (std::size_t bin = 0; bin < shares.size(); ++bin)
       inputs.push_back(input_of(p, size, {static_cast<double>(bin), 0.0, 0.0}));
   }
@@ -134,12 +134,12 @@ TEST(AtanasovSampling, LobesHoldTheShareOfEveryBin) {
                                       "  if (binIn(cellOf(lobe.axis)) == uint(c.x)) share += lobe.weight;\n"
                                       "}\nreturn vec4(share);",
                                       inputs);
-  const std::size_t bins = truth.size() / footprints.size();
-  for (std::size_t i = 0; i < truth.size(); ++i) {
+  const std::size_t bins = exact.size() / footprints.size();
+  for (std::size_t i = 0; i < exact.size(); ++i) {
     const Parallelogram& p = footprints[i / bins];
     const bool all = (2.0 * p.reach().x + 2.0) * (2.0 * p.reach().y + 2.0) <= draws;
-    const double deviation = std::sqrt(truth[i] * (1.0 - truth[i]) / draws);
-    EXPECT_NEAR(found[i].x, truth[i], all ? 3e-5 : 4.0 * deviation + 1e-3) << "footprint " << i / bins;
+    const double deviation = std::sqrt(exact[i] * (1.0 - exact[i]) / draws);
+    EXPECT_NEAR(found[i].x, exact[i], all ? 3e-5 : 4.0 * deviation + 1e-3) << "footprint " << i / bins;
   }
 }
 

@@ -90,7 +90,7 @@ TEST(Bins, NoNormalIsTakenForAnInvalidOne) {
   for (const int m : {1, 127, 2047}) EXPECT_NE(packed_normal(corner, m), no_normal);
 }
 
-TEST(Bins, AcrossALobeAreAsWideAsAskedFor) {
+TEST(Bins, AcrossALobeAreAsWideAsRequested) {
   const double variance = 0.5 * 0.1 * 0.1;
   const int m = bins_across_for(variance, 0.7, 2047);
   EXPECT_EQ(m % 2, 1);

@@ -167,14 +167,14 @@ TEST(InverseMap, CountsUnderAnyFootprintAsAPlainSumDoes) {
   for (const glm::ivec2& size : {glm::ivec2(1, 1), {64, 64}, {457, 671}}) {
     const Maps maps(some_normals(size.x, size.y, 0.9), 31);
     for (const Parallelogram& p : footprints_on(size)) {
-      std::map<std::uint32_t, double> truth;
+      std::map<std::uint32_t, double> expected;
       testing::for_each_texel(p, size, Wrap::repeat,
-                              [&](int x, int y, double area) { truth[maps.bin_at(x, y)] += area; });
+                              [&](int x, int y, double area) { expected[maps.bin_at(x, y)] += area; });
       testing::WalkTwin walk(maps.inverse, p);
       double total = 0.0;
       for (std::size_t i = 0; i < maps.inverse.lists.size(); ++i) {
         const double found = walk.area(i);
-        ASSERT_NEAR(found / p.area(), truth[maps.inverse.lists[i].key] / p.area(), 1e-6) << size.x << " " << i;
+        ASSERT_NEAR(found / p.area(), expected[maps.inverse.lists[i].key] / p.area(), 1e-6) << size.x << " " << i;
         total += found / p.area();
       }
       EXPECT_NEAR(total, 1.0, 1e-6) << size.x;
@@ -269,7 +269,7 @@ TEST(InverseMap, WordsComeBackFromTextures) {
   for (std::size_t i = 0; i < words.size(); ++i) ASSERT_EQ(word_at(texture, i), words[i]);
 }
 
-TEST(InverseMap, RefusesMapsThatNoTextureHolds) {
+TEST(InverseMap, RefusesMapsThatExceedTextures) {
   Image wide;
   wide.width = 16385;
   wide.height = 1;

@@ -45,7 +45,7 @@ struct PartedPoints {
 [[nodiscard]] Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_parts>& frames,
                                  Covariance covariance, int layer);
 
-/// Layers of four channels that hold `channels` of all parts together.
+/// Layers of four channels for `channels` of all parts together.
 [[nodiscard]] constexpr int layer_count(int channels) { return (channels + 3) / 4; }
 
 /// The finest level of w v for parts 4 layer and following. v is the value of `variance` (one channel) at the texel's

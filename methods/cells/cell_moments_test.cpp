@@ -53,18 +53,19 @@ PartedPoints parted(const Map& map) { return {map.points, map.shares, part_count
 
 TEST(CellMoments, TheCoarsestLevelHasTheSumsOverAllTexels) {
   const Map map;
-  for (const auto& [covariance, kept] :
+  for (const auto& [covariance, channels] :
        {std::pair{Covariance::full, std::vector<std::size_t>{0, 1, 2, 3, 4, 5}}, {Covariance::axes, {0, 1, 2, 3, 5}}}) {
     const auto frames = part_frames(map.points, map.shares, part_count, covariance);
-    ASSERT_EQ(part_channels(covariance), static_cast<int>(kept.size()));
+    ASSERT_EQ(part_channels(covariance), static_cast<int>(channels.size()));
     for (int layer = 0; layer < layer_count(part_channels(covariance) * static_cast<int>(part_count)); ++layer) {
       const Image top = mip_chain(moment_layer(parted(map), frames, covariance, layer)).back();
       ASSERT_EQ(top.texel_count(), 1U);
       for (std::size_t c = 0; c < 4; ++c) {
         const std::size_t channel = 4 * static_cast<std::size_t>(layer) + c;
-        const std::size_t part = channel / kept.size();
-        const double sum = part < part_count ? expected(map, frames[part], part)[kept[channel % kept.size()]] : 0.0;
-        EXPECT_NEAR(top.texels[c], sum, 1e-7) << "part " << part << ", channel " << channel % kept.size();
+        const std::size_t part = channel / channels.size();
+        const double sum =
+            part < part_count ? expected(map, frames[part], part)[channels[channel % channels.size()]] : 0.0;
+        EXPECT_NEAR(top.texels[c], sum, 1e-7) << "part " << part << ", channel " << channel % channels.size();
       }
     }
   }
@@ -121,7 +122,7 @@ TEST(CellMoments, VarianceIsThatOfThePartsOwnTexels) {
   }
   EXPECT_EQ(top.texels[3], 0.0F);
   const Image one = variance_layer(map.points, map.shares, part_count, Image(1, 1, 1, 0.5F), width, height, 0);
-  EXPECT_NEAR(one.texels[4], 0.5 * map.shares[part_count], 1e-7) << "one texel lies under all";
+  EXPECT_NEAR(one.texels[4], 0.5 * map.shares[part_count], 1e-7) << "all of it is under one texel";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Weight, mean and covariance of each part of the normals under a footprint, from moments that the texture filter may
-// average, and one stretched base lobe a part (methods/cells/README.md).
+// average, and one stretched base lobe per part (methods/cells/README.md).
 //? if coordinates_slopes
 //? include slope_part.glsl
 //? else
@@ -54,7 +54,7 @@ void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) 
 // rounds to 0, as that of a part that is not there is, and no lobe has that.
 const float least_variance = 5e-7;
 
-// The base lobe over a part: where the roughness map lies on the normals, the mean of the part's own texels.
+// The base lobe over a part: if the roughness map has the same texels as the normals, the mean of the part's own texels.
 BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance) {
 //? if roughness_variation and roughness_joint
   if (cells_joint > 0.5) {

@@ -36,11 +36,11 @@ ProbedMethod parted_method(const Material& material, const Words& options = {}) 
   return {.method = &cells_method(), .material = &material, .options = options};
 }
 
-std::vector<double> truth_of(const Material& material, const std::vector<glm::dvec3>& directions) {
-  std::vector<double> truth;
-  truth.reserve(directions.size());
-  for (const glm::dvec3& h : directions) truth.push_back(mean_facet_density(material, h));
-  return truth;
+std::vector<double> exact_densities(const Material& material, const std::vector<glm::dvec3>& directions) {
+  std::vector<double> exact;
+  exact.reserve(directions.size());
+  for (const glm::dvec3& h : directions) exact.push_back(mean_facet_density(material, h));
+  return exact;
 }
 
 // Grooves along y of walls of two slopes, each wall with a waviness of its own.
@@ -129,7 +129,7 @@ TEST(Cells, GlslMeetsItsTwin) {
   }
 }
 
-// Over solid angle, against the sum over texels, whatever the level (maps of one texel, of a few, of odd sizes) and
+// Over solid angle, against the sum over texels, at any level (maps of one texel, of a few, of odd sizes) and
 // what is averaged over it, since every filter's moments are those of some set of texels.
 TEST(Cells, KeepsTheEnergyOfTheSumOverTexels) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(160, 160);
@@ -144,9 +144,9 @@ TEST(Cells, KeepsTheEnergyOfTheSumOverTexels) {
   for (const auto& [distribution, lobe] : lobes) {
     for (const Image& normals : {random_normals(5, 3, 0.4F, 6), two_walls(8)}) {
       const Material material = lobe_material(normals, distribution, lobe);
-      const double truth = energy(truth_of(material, directions));
+      const double exact = energy(exact_densities(material, directions));
       for (const Words& words : sweep(ways, 1, number++)) {
-        EXPECT_NEAR(energy(probe_ndf(parted_method(material, words), directions)) / truth, 1.0, 0.01)
+        EXPECT_NEAR(energy(probe_ndf(parted_method(material, words), directions)) / exact, 1.0, 0.01)
             << lobe << " " << normals.width << " " << words.size() << (words.contains("k") ? " k" : "");
       }
     }
@@ -159,13 +159,13 @@ TEST(Cells, EveryFilterKeepsTheEnergy) {
   Scene scene = square_scene(two_walls(64), {.brdf = brdf, .base_color = glm::vec3(0.0F), .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 8.0F;
   TestRenderer renderer(scene, {32, 32});
-  const double truth = covered_mean(renderer.reference(256).mean);
+  const double reference = covered_mean(renderer.reference(256).mean);
   const std::array texts{"cells", "cells:covariance=full", "cells:k=2:storage=fp16"};
   std::size_t number = 0;
   for (const char* const filter : {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:2"}) {
     for (const char* const text : sweep(texts, 1, number++))
-      EXPECT_NEAR(covered_mean(renderer.frame(cells_method(), text, parse_footprint_filter(filter, ""))) / truth, 1.0,
-                  0.01)
+      EXPECT_NEAR(covered_mean(renderer.frame(cells_method(), text, parse_footprint_filter(filter, ""))) / reference,
+                  1.0, 0.01)
           << filter << " " << text;
   }
 }
@@ -186,11 +186,11 @@ TEST(Cells, MomentsTellTheMeanNormal) {
     ProbedMethod probed = parted_method(material, words);
     probed.effects.set(static_cast<std::size_t>(Effect::diffuse));
     const glm::vec3 mean(probe_method(probed, found, input)[0]);
-    glm::dvec3 truth(0.0);
+    glm::dvec3 expected(0.0);
     for (int y = 0; y < normals.height; ++y) {
-      for (int x = 0; x < normals.width; ++x) truth += normal_at(normals, x, y);
+      for (int x = 0; x < normals.width; ++x) expected += normal_at(normals, x, y);
     }
-    return glm::length(glm::dvec3(mean) - truth / static_cast<double>(normals.texel_count()));
+    return glm::length(glm::dvec3(mean) - expected / static_cast<double>(normals.texel_count()));
   };
   const char* const whole = "return vec4(e.mean_normal, 0.0);";
   Image facing(2, 1, 4);
@@ -208,13 +208,13 @@ TEST(Cells, MomentsTellTheMeanNormal) {
       << "the gate: the part's axis";
 }
 
-// Two walls in two parts, where one lobe stands over the ridge between them.
+// Two walls in two parts, where one lobe covers the ridge between them.
 TEST(Cells, TellsTheWallsOfGroovesApart) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
   const Material material = lobe_material(two_walls(32), blinn_phong, 64.0F);
-  const std::vector<double> truth = truth_of(material, directions);
-  EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"k", "2"}}), directions), truth), 0.1);
-  EXPECT_GT(relative_l2(probe_ndf(parted_method(material, {{"k", "1"}}), directions), truth), 0.4) << "the gate";
+  const std::vector<double> exact = exact_densities(material, directions);
+  EXPECT_LT(relative_l2(probe_ndf(parted_method(material, {{"k", "2"}}), directions), exact), 0.1);
+  EXPECT_GT(relative_l2(probe_ndf(parted_method(material, {{"k", "1"}}), directions), exact), 0.4) << "the gate";
 }
 
 // Hard case 13: equal normals under exponent 1e5. In 32 bits it is the base lobe, whose peak is (s + 1) / 2 pi.
@@ -307,7 +307,7 @@ TEST(Cells, RoughnessGoesWithTheNormals) {
   material.metallic_roughness_map =
       TextureMap{"roughness", std::make_shared<const Image>(roughness), material.normal_map->coordinates};
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const glm::dvec3& h : directions) {
     double sum = 0.0;
     for (int y = 0; y < 32; ++y) {
@@ -316,19 +316,19 @@ TEST(Cells, RoughnessGoesWithTheNormals) {
         sum += base_density(ggx, perceptual * perceptual, normal_at(normals, x, y), h);
       }
     }
-    truth.push_back(sum / static_cast<double>(normals.texel_count()));
+    exact.push_back(sum / static_cast<double>(normals.texel_count()));
   }
   ProbedMethod probed = parted_method(material, {{"k", "2"}});
   probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation));
-  const double joint = relative_l2(probe_ndf(probed, directions), truth);
+  const double joint = relative_l2(probe_ndf(probed, directions), exact);
   probed.options["roughness"] = "separate";
-  const double separate = relative_l2(probe_ndf(probed, directions), truth);
+  const double separate = relative_l2(probe_ndf(probed, directions), exact);
   EXPECT_LT(joint, 0.2);
   EXPECT_LT(joint, 0.5 * separate);
-  // On other coordinates nothing is joint: one variance, as when told so.
+  // On other coordinates nothing is joint: one variance, as on request.
   material.metallic_roughness_map->coordinates.set = 1;
   probed.options["roughness"] = "joint";
-  EXPECT_NEAR(relative_l2(probe_ndf(probed, directions), truth), separate, 1e-3);
+  EXPECT_NEAR(relative_l2(probe_ndf(probed, directions), exact), separate, 1e-3);
 }
 
 // One texel in 2048 that leans: in 16 bits its part's share of the variance of polished facets rounds to nothing.

@@ -1,4 +1,4 @@
-// Which part texels belong to: shares are whole, the same whatever the threads, and tell apart what a lobe shows apart.
+// Which part texels belong to: shares are whole, the same for any threads, and separate what a lobe separates.
 #include "methods/cells/partition.hpp"
 
 #include <gtest/gtest.h>

@@ -31,7 +31,7 @@ constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::no
 
 // ---- weights ----
 
-// A parallelogram about `centre`, in texels; the texel lies about 0.
+// A parallelogram about `centre`, in texels; the texel is about 0.
 struct Parallelogram {
   glm::dvec2 centre;
   glm::dmat2 edges;
@@ -150,7 +150,7 @@ Material bumpy(const Image& normals, Wrap wrap = Wrap::repeat) {
   return material;
 }
 
-// `exact`'s ndf and its truth over one material.
+// The NDF of `exact` over one material: its shader's, and that of the texels in double precision.
 class NdfUnderExact {
  public:
   explicit NdfUnderExact(const Material& material, const std::string& text)
@@ -164,7 +164,7 @@ class NdfUnderExact {
   [[nodiscard]] std::vector<float> of_shader(const FootprintRect& rect) const {
     return ndf_.densities(rect, grid_.directions);
   }
-  [[nodiscard]] std::vector<double> truth(const FootprintRect& rect) const {
+  [[nodiscard]] std::vector<double> of_texels(const FootprintRect& rect) const {
     return ReferenceNdf(material_.brdf.distribution, texels_under(material_, rect).facets)
         .densities(grid_.directions, no_progress);
   }
@@ -186,27 +186,27 @@ class NdfUnderExact {
   HemisphereGrid grid_ = footprint::hemisphere_grid(24);
 };
 
-// A facet may look as wide as the base lobe's own: 1e-4 of the peak is what 32 bits and the truth's cut-off leave.
+// A facet may look as wide as the base lobe's own: 32 bits and the cut-off of the exact sum leave 1e-4 of the peak.
 constexpr double rounding = 2e-4;
 
-TEST(ExactNdf, OfAreasIsTheTruthOfTheRectangle) {
+TEST(ExactNdf, OfAreasIsThatOfTheTexelsInTheRectangle) {
   const NdfUnderExact ndf(bumpy(random_normals(32, 20, 0.6F, 3)), "exact:kernel=areas");
   for (const FootprintRect& rect : {FootprintRect{{0.0, 0.0}, {1.0, 1.0}}, FootprintRect{{0.13, 0.2}, {0.51, 0.37}},
                                     FootprintRect{{-0.6, 0.9}, {1.7, 1.4}}, FootprintRect{{0.4, 0.4}, {0.41, 0.42}}}) {
-    EXPECT_LT(NdfUnderExact::difference(ndf.of_shader(rect), ndf.truth(rect)), rounding) << rect.lower.x;
+    EXPECT_LT(NdfUnderExact::difference(ndf.of_shader(rect), ndf.of_texels(rect)), rounding) << rect.lower.x;
   }
 }
 
-// The truth of another footprint is far from it: what the test above would see of a wrong weight.
-TEST(ExactNdf, OfAreasIsNotTheTruthOfARectangleThatLacksARow) {
+// The exact NDF of another footprint is far from it: what the test above would see of a wrong weight.
+TEST(ExactNdf, OfAreasIsNotThatOfARectangleThatLacksARow) {
   const NdfUnderExact ndf(bumpy(random_normals(32, 20, 0.6F, 3)), "exact:kernel=areas");
   const FootprintRect rect{{0.25, 0.2}, {0.5, 0.5}};
-  EXPECT_GT(NdfUnderExact::difference(ndf.of_shader({rect.lower, {0.5, 0.45}}), ndf.truth(rect)), 50.0 * rounding);
+  EXPECT_GT(NdfUnderExact::difference(ndf.of_shader({rect.lower, {0.5, 0.45}}), ndf.of_texels(rect)), 50.0 * rounding);
 }
 
-// What trilinear filtering blends: the truths of eight texels, found anew.
-std::vector<double> trilinear_truth(const NdfUnderExact& ndf, const FootprintRect& rect, const glm::ivec2& size,
-                                    Wrap wrap) {
+// What trilinear filtering blends: the exact NDFs of eight texels, summed again.
+std::vector<double> trilinear_ndf(const NdfUnderExact& ndf, const FootprintRect& rect, const glm::ivec2& size,
+                                  Wrap wrap) {
   const double coarsest = std::floor(std::log2(std::max(size.x, size.y)));
   const double level = std::clamp(std::log2(std::max(rect.size().x * size.x, rect.size().y * size.y)), 0.0, coarsest);
   std::vector<double> sum;
@@ -225,7 +225,7 @@ std::vector<double> trilinear_truth(const NdfUnderExact& ndf, const FootprintRec
       texel.upper[axis] = (index + 1.0) / texels;
     }
     if (weight <= 0.0) continue;
-    const std::vector<double> part = ndf.truth(texel);
+    const std::vector<double> part = ndf.of_texels(texel);
     if (sum.empty()) sum.assign(part.size(), 0.0);
     for (std::size_t k = 0; k < part.size(); ++k) sum[k] += weight * part[k];
   }
@@ -239,19 +239,19 @@ TEST(ExactNdf, OfTheFilterIsThatOfTheTexelsItBlends) {
       for (const FootprintRect& rect :
            {FootprintRect{{0.3, 0.42}, {0.45, 0.5}}, FootprintRect{{0.9, -0.1}, {1.3, 0.1}},
             FootprintRect{{0.5, 0.5}, {0.502, 0.501}}, FootprintRect{{-1.0, -1.0}, {2.0, 2.5}}}) {
-        EXPECT_LT(NdfUnderExact::difference(ndf.of_shader(rect), trilinear_truth(ndf, rect, size, wrap)), rounding)
+        EXPECT_LT(NdfUnderExact::difference(ndf.of_shader(rect), trilinear_ndf(ndf, rect, size, wrap)), rounding)
             << size.x << " " << static_cast<int>(wrap) << " " << rect.lower.x;
       }
     }
   }
 }
 
-// A texel of the NDF that lies a level off is told apart.
+// An NDF with a texel of the wrong level differs.
 TEST(ExactNdf, OfTheFilterIsNotThatOfAFinerLevel) {
   const NdfUnderExact ndf(bumpy(random_normals(32, 32, 0.6F, 4)), "exact");
   const FootprintRect rect{{0.3, 0.4}, {0.425, 0.5}};
   const FootprintRect narrower{{0.33, 0.42}, {0.395, 0.48}};
-  EXPECT_GT(NdfUnderExact::difference(ndf.of_shader(rect), trilinear_truth(ndf, narrower, {32, 32}, Wrap::repeat)),
+  EXPECT_GT(NdfUnderExact::difference(ndf.of_shader(rect), trilinear_ndf(ndf, narrower, {32, 32}, Wrap::repeat)),
             50.0 * rounding);
 }
 
@@ -275,7 +275,7 @@ Scene flat_quad(const Image& normals, float side, float turn = 0.3F, float tilt 
 }
 
 // How far a picture is from the reference, over the reference's standard error and what 32 bits leave of the weights;
-// as root mean squares over pixels and colours. 1 where noise alone tells them apart, less as samples are stratified.
+// as root mean squares over pixels and colours. 1 if they differ only by noise, less because samples are stratified.
 double deviations(const Image& picture, const Supersampled& reference) {
   constexpr double rounding_of_weights = 3e-4;  // ExactWeights.AreThoseOfASumOverPoints
   double difference = 0.0, noise = 0.0;
@@ -364,7 +364,7 @@ TEST(Exact, IsNearTheReferenceWithMapsOfTheirOwnCoordinates) {
   EXPECT_LT(difference(aligned, scene), 0.045);
   scene.materials[0].metallic_roughness_map->coordinates.transform = {0.9F, 0.3F, -0.2F, 1.4F, 0.13F, 0.4F};
   EXPECT_LT(difference(TestRenderer(scene, quad_size).frame(exact_method(), "exact:kernel=pixel"), scene), 0.045);
-  // The same roughness elsewhere is told apart.
+  // The same roughness elsewhere differs.
   EXPECT_GT(difference(aligned, scene), 0.06);
 
   TextureMap layer{"layer", std::make_shared<const Image>(random_normals(16, 16, 0.4F, 10)), {}};
@@ -504,8 +504,8 @@ TEST(ExactUnderAnEnvironment, IsTheMeanOverTexelsOfDirect) {
 TEST(ExactUnderAnEnvironment, IsNearTheReference) {
   constexpr BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true};
   TestRenderer renderer(under_an_environment(random_normals(32, 32, 0.7F, 5), 4.0F, brdf), quad_size);
-  const Image truth = renderer.reference(256).mean;
-  EXPECT_LT(compare_images(renderer.frame(exact_method(), "exact:kernel=pixel"), truth, 1.0F).value().relative_rmse,
+  const Image reference = renderer.reference(256).mean;
+  EXPECT_LT(compare_images(renderer.frame(exact_method(), "exact:kernel=pixel"), reference, 1.0F).value().relative_rmse,
             0.05);
 }
 

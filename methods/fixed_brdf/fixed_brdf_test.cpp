@@ -19,8 +19,8 @@ namespace {
 
 constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
 
-double difference(const Image& picture, const Image& truth) {
-  return compare_images(picture, truth, 1.0F).value().relative_rmse;
+double difference(const Image& picture, const Image& reference) {
+  return compare_images(picture, reference, 1.0F).value().relative_rmse;
 }
 
 // Roughness of two values in stripes one texel wide: any filter of it gives neither.
@@ -69,8 +69,8 @@ TEST(FixedBrdf, IsTooShinyFarAway) {
   scene.materials[0].lobe_parameter = 200.0F;
   TestRenderer renderer(scene, {16, 16});
   const Image fixed = renderer.frame(fixed_brdf_method());
-  const Image truth = renderer.reference(1024).mean;
-  EXPECT_GT(*std::ranges::max_element(fixed.texels), 2.0F * *std::ranges::max_element(truth.texels));
+  const Image reference = renderer.reference(1024).mean;
+  EXPECT_GT(*std::ranges::max_element(fixed.texels), 2.0F * *std::ranges::max_element(reference.texels));
 }
 
 }  // namespace

@@ -266,9 +266,9 @@ TEST(Fournier, FinestLevelIsTheBaseSurface) {
                                                 NormalDistribution::blinn_phong, NormalDistribution::vmf}) {
     const BaseBrdf brdf{distribution, GeometryTerm::none, FresnelTerm::schlick, true};
     TestRenderer renderer(square_scene(random_normals(32, 32, 0.5F, 5), {.brdf = brdf}));
-    const Image truth = renderer.reference(16, 3).mean;
+    const Image reference = renderer.reference(16, 3).mean;
     const Image finest = renderer.supersampled(fournier_method(), 16, 3).mean;
-    EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 1e-4);
+    EXPECT_LT(compare_images(finest, reference, 1.0F).value().relative_rmse, 1e-4);
   }
 }
 
@@ -280,9 +280,9 @@ TEST(Fournier, FinestLevelTakesTheTexelsOwnRoughness) {
   for (std::size_t i = 0; i < roughness->texels.size(); i += 2) roughness->texels[i] = i % 4 == 0 ? 0.25F : 0.7F;
   scene.materials[0].metallic_roughness_map = TextureMap{.name = "stripes", .image = roughness, .coordinates = {}};
   TestRenderer renderer(scene);
-  const Image truth = renderer.reference(16, 3).mean;
+  const Image reference = renderer.reference(16, 3).mean;
   const Image finest = renderer.supersampled(fournier_method(), 16, 3).mean;
-  EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 1e-4);
+  EXPECT_LT(compare_images(finest, reference, 1.0F).value().relative_rmse, 1e-4);
 }
 
 TEST(Fournier, NormalsOfNoLengthWeighNothing) {
@@ -313,7 +313,7 @@ TEST(Fournier, ConstantAndSingleTexelMapsAreOneLobe) {
   }
 }
 
-// Weights sum to one in every texel of every level, heaviest first, whatever the size.
+// Weights sum to one in every texel of every level, heaviest first, at any size.
 TEST(Fournier, AnySizeKeepsItsWeight) {
   for (const glm::ivec2& size : {glm::ivec2(13, 7), glm::ivec2(1, 9), glm::ivec2(31, 2)}) {
     const Baked baked(random_normals(size.x, size.y, 0.6F, 2), 64.0F);
@@ -389,11 +389,11 @@ TEST(Fournier, NotesFitsThatStoppedEarly) {
 // Grooves that run away from an oblique view: probes along them keep a texel of few normals.
 TEST(Fournier, AnisotropicProbesGain) {
   TestRenderer renderer(receding_grooves());
-  const Image truth = renderer.reference(1024).mean;
+  const Image reference = renderer.reference(1024).mean;
   const auto error_with = [&](const char* filter) {
     const Image picture = renderer.frame(fournier_method(), {}, parse_footprint_filter(filter, ""));
     for (const float value : picture.texels) EXPECT_TRUE(std::isfinite(value) && value >= 0.0F);
-    return compare_images(picture, truth, 1.0F).value().relative_rmse;
+    return compare_images(picture, reference, 1.0F).value().relative_rmse;
   };
   EXPECT_LT(error_with("anisotropic:4"), error_with("trilinear"));
 }

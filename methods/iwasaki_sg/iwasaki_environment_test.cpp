@@ -87,8 +87,8 @@ glm::dvec3 drawn(const Scene& scene) {
   return mean_of(TestRenderer(scene, {4, 4}).frame(iwasaki_sg_method(), "iwasaki_sg:facets=8192"));
 }
 
-void expect_near(const glm::dvec3& found, const glm::dvec3& truth, double bound) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / truth[c], 1.0, bound) << "channel " << c;
+void expect_near(const glm::dvec3& found, const glm::dvec3& expected, double bound) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1.0, bound) << "channel " << c;
 }
 
 const glm::dvec3 above(0.0, 0.0, 1.0), oblique = glm::normalize(glm::dvec3(0.7, 0.2, 0.8));
@@ -99,9 +99,9 @@ TEST(IwasakiUnderAnEnvironment, DiffuseTermIsThatOfTheFacets) {
   for (const char* kind : {"flat", "grooves"}) {
     for (const glm::dvec3& wo : {above, oblique}) {
       const Scene white = patch_scene(patch_of(kind), matte, wo, constant_environment(glm::vec3(1.0F)));
-      const FacetRadiance truth = sum_of_facets(white.materials[0], wo);
-      expect_near(drawn(white), truth.white, 0.005);
-      expect_near(drawn(patch_scene(patch_of(kind), matte, wo, uneven_environment())), truth.uneven, 0.05);
+      const FacetRadiance expected = sum_of_facets(white.materials[0], wo);
+      expect_near(drawn(white), expected.white, 0.005);
+      expect_near(drawn(patch_scene(patch_of(kind), matte, wo, uneven_environment())), expected.uneven, 0.05);
     }
   }
 }
@@ -121,10 +121,10 @@ TEST(IwasakiUnderAnEnvironment, TabulatedBrdfIsNearTheSumOverFacets) {
     for (const glm::dvec3& wo : {above, oblique}) {
       SCOPED_TRACE(fmt::format("{} {} {}", kind, brdf == &rough ? "rough" : brdf == &sharp ? "sharp" : "glossy", wo.z));
       const Scene uneven = patch_scene(patch_of(kind), *brdf, wo, uneven_environment());
-      const FacetRadiance truth = sum_of_facets(uneven.materials[0], wo, side);
-      expect_near(drawn(uneven), truth.uneven, bound);
+      const FacetRadiance expected = sum_of_facets(uneven.materials[0], wo, side);
+      expect_near(drawn(uneven), expected.uneven, bound);
       const Scene white = patch_scene(patch_of(kind), *brdf, wo, constant_environment(glm::vec3(1.0F)));
-      expect_near(drawn(white), truth.white, bound);
+      expect_near(drawn(white), expected.white, bound);
     }
   }
 }

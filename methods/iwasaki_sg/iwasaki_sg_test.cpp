@@ -35,13 +35,13 @@ double density(double exponent, const glm::dvec3& n, const glm::dvec3& h) {
 }
 
 /// Eq. 1 of the facets that the method samples, at two directions of its grid: specular, diffuse over albedo / pi.
-struct Truth {
+struct FacetSum {
   glm::dvec3 specular{0.0}, diffuse{0.0};
 };
 
-Truth facet_sum(const Patch& patch, const Bvndf& bvndf, double exponent, std::size_t i, std::size_t o) {
+FacetSum facet_sum(const Patch& patch, const Bvndf& bvndf, double exponent, std::size_t i, std::size_t o) {
   const glm::dvec3 h = glm::normalize(bvndf.directions[i] + bvndf.directions[o]);
-  Truth out;
+  FacetSum out;
   for (std::size_t bin = 0; bin < bvndf.bins.size(); ++bin) {
     const glm::dvec3& n = bvndf.bins[bin].normal;
     const glm::dvec3 color(patch.palette[bvndf.bins[bin].paint]);
@@ -53,7 +53,7 @@ Truth facet_sum(const Patch& patch, const Bvndf& bvndf, double exponent, std::si
 }
 
 struct Compared {
-  double specular = 0.0, diffuse = 0.0;  // root mean square differences over the truth's
+  double specular = 0.0, diffuse = 0.0;  // root mean square differences over the exact sum's
 };
 
 // The method's own shader against the sum, over pairs of the grid's directions.
@@ -65,12 +65,12 @@ Compared against_sum(const Patch& patch, float exponent, const std::map<std::str
   FacetVisibility visibility = facet_visibility(patch, binned.samples, directions, no_progress);
   const Bvndf bvndf = make_bvndf(std::move(binned), std::move(visibility), std::move(directions));
   std::vector<std::array<glm::vec4, 3>> inputs;
-  std::vector<Truth> truth;
+  std::vector<FacetSum> exact;
   for (std::size_t i = 0; i < bvndf.directions.size(); i += 7) {
     for (std::size_t o = 0; o < bvndf.directions.size(); o += 5) {
       inputs.push_back(
           {glm::vec4(glm::vec3(bvndf.directions[i]), 0), glm::vec4(glm::vec3(bvndf.directions[o]), 0), {}});
-      truth.push_back(facet_sum(patch, bvndf, exponent, i, o));
+      exact.push_back(facet_sum(patch, bvndf, exponent, i, o));
     }
   }
   std::map<std::string, std::string> given = options;
@@ -83,17 +83,17 @@ Compared against_sum(const Patch& patch, float exponent, const std::map<std::str
   const glm::dvec3 mean(material.microgeometry->mean_color);
   Compared out;
   double all_specular = 0.0, all_diffuse = 0.0;
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    out.specular += std::pow(specular[k].x - truth[k].specular.x, 2.0);
-    all_specular += std::pow(truth[k].specular.x, 2.0);
-    const glm::dvec3 away = glm::dvec3(diffuse[k]) * mean - truth[k].diffuse;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    out.specular += std::pow(specular[k].x - exact[k].specular.x, 2.0);
+    all_specular += std::pow(exact[k].specular.x, 2.0);
+    const glm::dvec3 away = glm::dvec3(diffuse[k]) * mean - exact[k].diffuse;
     out.diffuse += glm::dot(away, away);
-    all_diffuse += glm::dot(truth[k].diffuse, truth[k].diffuse);
+    all_diffuse += glm::dot(exact[k].diffuse, exact[k].diffuse);
   }
   return {std::sqrt(out.specular / all_specular), std::sqrt(out.diffuse / all_diffuse)};
 }
 
-// Five flat normals: five lobes hold all there is to know of them.
+// Five flat normals: five lobes describe them completely.
 TEST(IwasakiSg, IsTheSumOverVisibleFacetsForFlatOnes) {
   const Patch patch = patch_of("pyramids", {{"slope_degrees", "40"}});
   const Compared base = against_sum(patch, 50.0F, {});
@@ -183,20 +183,20 @@ TEST(IwasakiSg, TabulatedBrdfOfAFlatPatchIsThatOfTheReference) {
   flat.brdf = std::make_shared<const TabulatedBrdf>(ward_brdf({0.3F, 0.2F, 0.1F}, {0.3F, 0.3F, 0.3F}, 0.25));
   scene.materials[0].microgeometry = std::make_shared<const Microgeometry>(flat);
   TestRenderer renderer(scene);
-  const Image truth = renderer.reference(16).mean;
+  const Image reference = renderer.reference(16).mean;
   const Image picture = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=1024");
-  // What functions of the half and the difference angle cannot hold of Ward's root of cosines.
-  EXPECT_LT(compare_images(picture, truth, 1.0F).value().relative_rmse, 0.03);
+  // Functions of the half and the difference angle cannot represent Ward's root of cosines.
+  EXPECT_LT(compare_images(picture, reference, 1.0F).value().relative_rmse, 0.03);
 }
 
-// The reference's facets, drawn at random, against the method's sum of lobes that hold flat facets exactly.
+// The reference's facets, drawn at random, against the method's sum of lobes, which is exact for flat facets.
 TEST(IwasakiSg, MeetsTheReferenceOfAPatch) {
   Scene scene = square_scene({}, {.brdf = blinn_phong, .roughness = 0.7F});
   scene.materials[0].microgeometry = microgeometry_of(patch_of("pyramids", {{"slope_degrees", "25"}}));
   TestRenderer renderer(scene, {32, 32});
-  const Image truth = renderer.reference(64).mean;
+  const Image reference = renderer.reference(64).mean;
   const Image picture = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096");
-  EXPECT_LT(compare_images(picture, truth, 1.0F).value().relative_rmse, 0.05);
+  EXPECT_LT(compare_images(picture, reference, 1.0F).value().relative_rmse, 0.05);
 }
 
 // The paper's 2.3 MB for eight lobes in colour.
@@ -231,10 +231,11 @@ TEST(IwasakiSg, SeveralMaterialsBlendByCoverage) {
               2'300'000U);
   }
   TestRenderer renderer(scene, {24, 24});
-  const Image truth = renderer.supersampled(base_surface(), 256).mean;
-  EXPECT_LT(
-      compare_images(renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096"), truth, 1.0F).value().relative_rmse,
-      0.06);
+  const Image reference = renderer.supersampled(base_surface(), 256).mean;
+  EXPECT_LT(compare_images(renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096"), reference, 1.0F)
+                .value()
+                .relative_rmse,
+            0.06);
   const Image far = renderer.frame(iwasaki_sg_method(), "iwasaki_sg:facets=4096", {}, 0, 6.0);
   for (std::size_t i = 3; i < far.texels.size(); i += 4) {
     ASSERT_TRUE(far.texels[i] == 1.0F || far.texels[i] == 0.0F);

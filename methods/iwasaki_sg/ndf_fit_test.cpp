@@ -1,4 +1,4 @@
-// Fits of the normal distribution: known mixtures come back, flat facets stay exact, degenerate input is held.
+// Fits of the normal distribution: known mixtures come back, flat facets stay exact, degenerate input is tolerated.
 #include "methods/iwasaki_sg/lobe_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(NdfFit, FlatFacetsAreExact) {
   }
 }
 
-// Normals that hardly differ: no lobes that Eq. 8 could not tell apart.
+// Normals that hardly differ: no lobes that Eq. 8 cannot separate.
 TEST(NdfFit, MergesLobesThatCoincide) {
   std::mt19937_64 random(9);
   std::vector<WeightedNormal> normals;
@@ -84,7 +84,7 @@ TEST(NdfFit, MergesLobesThatCoincide) {
   }
 }
 
-TEST(NdfFit, HoldsDegenerateInput) {
+TEST(NdfFit, ToleratesDegenerateInput) {
   EXPECT_EQ(fit_ndf({}, 4).lobes.size(), 1U);
   const std::vector<WeightedNormal> one{{{0.6, 0, 0.8}, 3.0}};
   const NdfFit fit = fit_ndf(one, 4);
@@ -104,13 +104,13 @@ TEST(NdfFit, IsTheSameEachTime) {
 }
 
 // The relative error over solid angle of the SGs fitted to a density.
-double fit_error(const std::vector<BrdfLobe>& lobes, const std::function<double(double)>& truth) {
+double fit_error(const std::vector<BrdfLobe>& lobes, const std::function<double(double)>& exact) {
   double difference = 0.0, square = 0.0;
   for (int i = 0; i < 20000; ++i) {
     const double w = (i + 0.5) / 20000.0;
     const double u = w * w, du = 2.0 * w / 20000.0;
-    difference += du * std::pow(value(lobes, u) - truth(u), 2.0);
-    square += du * truth(u) * truth(u);
+    difference += du * std::pow(value(lobes, u) - exact(u), 2.0);
+    square += du * exact(u) * exact(u);
   }
   return std::sqrt(difference / square);
 }
@@ -155,9 +155,10 @@ TEST(BrdfLobes, OfATableFollowIt) {
         sum += glm::dvec3(lobe.amplitude) * std::exp(-lobe.sharpness * (1.0 - std::cos(theta_h)));
       }
       sum = sum * rise_at(fitted, theta_d) + glm::dvec3(fitted.diffuse);
-      const glm::dvec3 truth(table.at(theta_h, theta_d, 1.5));
+      const glm::dvec3 expected(table.at(theta_h, theta_d, 1.5));
       const double peak = table.at(0.0, theta_d, 1.5).g, bound = theta_d < 1.0 ? 0.035 : 0.08;
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], truth[c], bound * peak) << theta_d << " " << theta_h << " " << c;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sum[c], expected[c], bound * peak) << theta_d << " " << theta_h << " " << c;
     }
   }
 }

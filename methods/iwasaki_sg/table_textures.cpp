@@ -140,7 +140,7 @@ std::vector<std::string> notes_of(const Material& material, const MaterialTable&
   const std::size_t lobes = table.amplitudes.lobes.size();
   if (!material.microgeometry) {
     return {
-        fmt::format("the normal map as a whole stands for the small-scale geometry, all of it seen: {} lobe{} "
+        fmt::format("the normal map as a whole replaces the small-scale geometry, all of it seen: {} lobe{} "
                     "for {} discretised normals; its structure does not show at any distance",
                     lobes, lobes == 1 ? "" : "s", table.normals)};
   }

@@ -80,7 +80,7 @@ class Leadr final : public Method {
 
   // footprint_slopes.glsl reads these flags, which only `lean` sets.
   [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"mean_normal_kept", false}});
+    return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"with_mean_normal", false}});
   }
 
  private:

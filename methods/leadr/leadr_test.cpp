@@ -238,7 +238,7 @@ TEST(Leadr, DisplacementWeighsTexelsByTheirVisibleArea) {
     EXPECT_NEAR(displaced[i].x / bump[i].x / expected[i], 1.0, 0.03) << i << ": " << expected[i];
 }
 
-// A displaced surface reflects no more than it gets, whatever its slopes, with F = 1.
+// A displaced surface reflects no more than it gets, for any slopes, with F = 1.
 TEST(Leadr, MaskedSurfacesReflectNoMoreThanTheyGet) {
   const std::vector<glm::dvec3> lights = hemisphere_grid(100, 100);
   for (const float spread : {0.05F, 0.3F, 0.8F}) {
@@ -294,9 +294,9 @@ TEST(Leadr, DiffuseMeetsTheSumOverTexels) {
 // Grooves that run away from the viewer: probes along the long side of a pixel's footprint leave the short side sharp.
 TEST(Leadr, ProbesSharpenAnObliqueView) {
   TestRenderer renderer(receding_grooves());
-  const Image truth = renderer.reference(256).mean;
+  const Image reference = renderer.reference(256).mean;
   const auto error = [&](const char* filter) {
-    return compare_images(renderer.frame(leadr_method(), {}, parse_footprint_filter(filter, "")), truth, 1.0F)
+    return compare_images(renderer.frame(leadr_method(), {}, parse_footprint_filter(filter, "")), reference, 1.0F)
         .value()
         .relative_rmse;
   };

@@ -13,7 +13,7 @@ extern const EmbeddedTexts lean_glsl;
 namespace {
 
 // The diffuse term reads the mean normal; of detail layers only the slopes are stored.
-KeptSlopes kept_slopes(const Options& options, const EffectSet& effects) {
+StoredSlopes stored_slopes(const Options& options, const EffectSet& effects) {
   return {.variant = options.word("variant") == "clean" ? SlopeVariant::scalar : SlopeVariant::full,
           .mean_normal = has(effects, Effect::diffuse) && !has(effects, Effect::normal_layers)};
 }
@@ -24,12 +24,12 @@ class Lean final : public Method {
 
   [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                                        const Progress& /*progress*/) const override {
-    return bake_slopes(material, options, effects, kept_slopes(options, effects));
+    return bake_slopes(material, options, effects, stored_slopes(options, effects));
   }
 
   // footprint_slopes.glsl serves `lean` and `leadr`, which differ in this texture.
   [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::lean_glsl, "lean.glsl", {{"mean_normal_kept", true}});
+    return module_of(embedded::lean_glsl, "lean.glsl", {{"with_mean_normal", true}});
   }
 
  private:

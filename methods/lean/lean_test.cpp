@@ -119,11 +119,13 @@ TEST(Lean, KeepsTheEnergyOfTheSumOverTexels) {
       std::vector<double> exact;
       exact.reserve(directions.size());
       for (const glm::dvec3& h : directions) exact.push_back(mean_facet_density(material, h));
-      const double truth = energy(exact);
-      EXPECT_NEAR(energy(probe_ndf(lean(material), directions)) / truth, 1.0, 0.01) << lobe;
-      EXPECT_NEAR(energy(probe_ndf(lean(material, {{"variant", "clean"}}), directions)) / truth, 1.0, 0.01) << lobe;
+      const double exact_energy = energy(exact);
+      EXPECT_NEAR(energy(probe_ndf(lean(material), directions)) / exact_energy, 1.0, 0.01) << lobe;
+      EXPECT_NEAR(energy(probe_ndf(lean(material, {{"variant", "clean"}}), directions)) / exact_energy, 1.0, 0.01)
+          << lobe;
       if (distribution == beckmann || distribution == ggx) continue;
-      EXPECT_NEAR(energy(probe_ndf(lean(material, {{"roughness", "moments"}}), directions)) / truth, 1.0, 0.01) << lobe;
+      EXPECT_NEAR(energy(probe_ndf(lean(material, {{"roughness", "moments"}}), directions)) / exact_energy, 1.0, 0.01)
+          << lobe;
     }
   }
 }
@@ -197,24 +199,24 @@ TEST(Lean, IsNearerToGroovesThanItsScalarVariant) {
   EXPECT_LT(error({}), 0.8 * error({{"variant", "clean"}}));
 }
 
-// Far away, where a pixel holds many bumps: what is left is the chance of 1024 texels a pixel.
+// Far away, where a pixel covers many bumps, only the noise of 1024 texels per pixel remains.
 TEST(Lean, FollowsTheReferenceFarAway) {
   const BaseBrdf brdf{blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
   Scene scene = square_scene(gaussian_slope_normals(512, 0.3F), {.brdf = brdf, .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 50.0F;
   TestRenderer renderer(scene, {16, 16});
-  const Image truth = renderer.reference(1024).mean;
+  const Image reference = renderer.reference(1024).mean;
   for (const char* const text : {"lean", "lean:roughness=shading", "lean:roughness=moments:storage=fp16"}) {
-    EXPECT_LT(compare_images(renderer.frame(lean_method(), text), truth, 1.0F).value().relative_rmse, 0.1) << text;
+    EXPECT_LT(compare_images(renderer.frame(lean_method(), text), reference, 1.0F).value().relative_rmse, 0.1) << text;
   }
 }
 
 // Grooves that run away from the viewer: probes along the long side of a pixel's footprint leave the short side sharp.
 TEST(Lean, ProbesSharpenAnObliqueView) {
   TestRenderer renderer(receding_grooves());
-  const Image truth = renderer.reference(256).mean;
+  const Image reference = renderer.reference(256).mean;
   const auto error = [&](const char* filter) {
-    return compare_images(renderer.frame(lean_method(), {}, parse_footprint_filter(filter, "")), truth, 1.0F)
+    return compare_images(renderer.frame(lean_method(), {}, parse_footprint_filter(filter, "")), reference, 1.0F)
         .value()
         .relative_rmse;
   };

@@ -34,7 +34,7 @@ double far_difference(const std::string& text, float kappa) {
   return compare_images(filtered, constant, 1.0F).value().relative_rmse;
 }
 
-TEST(NaiveMip, AveragesTheLobeParameterWhereAsked) {
+TEST(NaiveMip, AveragesTheLobeParameterOnRequest) {
   EXPECT_LT(far_difference("naive_mip:averages=lobe", 505.0F), 1e-4);
   EXPECT_LT(far_difference("naive_mip:averages=lobe:storage=fp16", 505.0F), 1e-2);
 }

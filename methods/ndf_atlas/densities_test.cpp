@@ -118,9 +118,9 @@ double bilinear_error(const Facets& facets, const Lattice& lattice, std::span<co
       const int j = static_cast<int>(y);
       const double found = (1 - y + j) * ((1 - x + i) * at(i, j) + (x - i) * at(i + 1, j)) +
                            (y - j) * ((1 - x + i) * at(i, j + 1) + (x - i) * at(i + 1, j + 1));
-      const double truth = block_density(facets, {0, 0}, 16, direction_over(point));
-      squares += (found - truth) * (found - truth);
-      norm += truth * truth;
+      const double exact = block_density(facets, {0, 0}, 16, direction_over(point));
+      squares += (found - exact) * (found - exact);
+      norm += exact * exact;
     }
   }
   return std::sqrt(squares / norm);
@@ -147,7 +147,7 @@ TEST(Densities, AreCloserWithSecondDifferences) {
   EXPECT_NEAR(sum / plain_sum, 1.0, 1e-3);
 }
 
-// Beyond the lattice a lookup has its border's value: nothing, but where the border lies below the horizon.
+// Beyond the lattice a lookup has its border's value: 0, except where the border is below the horizon.
 TEST(Densities, EndAtTheBorderAboveTheHorizon) {
   const Lattice lattice{.nodes = {4, 3}, .origin = {0.5, -0.4}, .step = {0.4, 0.4}};  // to x = 1.7
   std::vector<float> table(12, 1.0F);

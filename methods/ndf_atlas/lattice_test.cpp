@@ -1,4 +1,4 @@
-// The plane of the lattice against its definition, reach against closed forms, and what a lattice has to hold.
+// The plane of the lattice against its definition, reach against closed forms, and the extent of a lattice.
 #include "methods/ndf_atlas/lattice.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(Plane, IsInvertedByDirections) {
   EXPECT_NEAR(direction_over({3.0, 0.0}).z, -1.0, 1e-12) << "beyond the sphere";
 }
 
-// The area of a small square of directions is its solid angle, wherever it lies.
+// The area of a small square of directions is its solid angle, anywhere.
 TEST(Plane, KeepsAreas) {
   for (const double tilt : {0.2, 0.9, 1.5, 2.6}) {
     constexpr double h = 1e-4;
@@ -47,7 +47,7 @@ TEST(Plane, KeepsAreas) {
 
 TEST(Reach, IsThatOfTheClosedForms) {
   constexpr double outside = 1e-3;
-  for (const double s : {8.0, 64.0, 1e4, 1e6}) {  // cos^(s + 1) is what lies outside
+  for (const double s : {8.0, 64.0, 1e4, 1e6}) {  // cos^(s + 1) is outside
     EXPECT_NEAR(lobe_reach({blinn_phong, s}, outside) / std::acos(std::pow(outside, 1.0 / (s + 1.0))), 1.0, 0.01) << s;
   }
   for (const double kappa : {20.0, 1e5}) {  // e^{kappa (cos - 1)}
@@ -57,7 +57,7 @@ TEST(Reach, IsThatOfTheClosedForms) {
   EXPECT_NEAR(lobe_reach({vmf, 1e-3}, outside), pi, 0.1);
 }
 
-TEST(Lattice, HoldsEveryLobeInSteps) {
+TEST(Lattice, CoversEveryLobeInSteps) {
   const std::vector<glm::vec3> normals{glm::vec3(polar(0.2, 0.1)), glm::vec3(polar(0.5, 3.0)), glm::vec3(0.0F)};
   for (const Lobe& lobe : {Lobe{blinn_phong, 64.0}, Lobe{beckmann, 0.1}, Lobe{ggx, 0.3}, Lobe{vmf, 500.0}}) {
     const Lattice lattice = lattice_over(facets_of_normals(normals, lobe), 0.73);
@@ -96,7 +96,7 @@ TEST(Lattice, SaysHowManyNodesAMirrorTakesAndStopsBelowTheHorizon) {
   const Lattice wide = lattice_over(facets_of_normals(normals, {vmf, 2.0}), 0.73);
   EXPECT_LE(-wide.origin.x, std::numbers::sqrt2 + 2.0 * 0.73 / std::sqrt(2.0) + 1e-9);
   const Lattice none = lattice_over(facets_of_normals({glm::vec3(0.0F)}, {vmf, 2.0}), 0.73);
-  EXPECT_EQ(none.nodes, glm::ivec2(2)) << "nothing to hold";
+  EXPECT_EQ(none.nodes, glm::ivec2(2)) << "nothing to cover";
 }
 
 }  // namespace

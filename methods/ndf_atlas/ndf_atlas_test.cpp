@@ -70,7 +70,7 @@ std::vector<double> means_over_texels(const Image& normals, std::size_t count,
   return means;
 }
 
-std::vector<double> truth_of(const Material& material, const std::vector<glm::dvec3>& directions) {
+std::vector<double> exact_densities(const Material& material, const std::vector<glm::dvec3>& directions) {
   const Image normals = material.normal_map->image.decoded();
   return means_over_texels(normals, directions.size(), [&](const glm::dvec3& n, std::size_t i) {
     return base_density(material.brdf.distribution, *material.lobe_parameter, n, directions[i]);
@@ -134,8 +134,8 @@ TEST(NdfAtlas, GlslMeetsItsTwin) {
   }
 }
 
-// Squares of 4, 16 and 64 texels, each a whole map: fine, middle and coarse levels. The bound is a fifth above what was
-// measured, which stands in the README.
+// Squares of 4, 16 and 64 texels, each a whole map: fine, middle and coarse levels. The bound is a fifth above the
+// measured value of the README.
 TEST(NdfAtlas, IsCloseToTheSumOverTexels) {
   struct Bound {
     const char* surface;
@@ -152,7 +152,8 @@ TEST(NdfAtlas, IsCloseToTheSumOverTexels) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Image square = square_of(map, 96, 160, std::array{4, 16, 64}[k]);
       const Material material = lobe_material(square, blinn_phong, 64.0F);
-      EXPECT_LT(relative_l2(probe_ndf(tabulated(material), directions), truth_of(material, directions)), bound.error[k])
+      EXPECT_LT(relative_l2(probe_ndf(tabulated(material), directions), exact_densities(material, directions)),
+                bound.error[k])
           << bound.surface << " " << square.width;
     }
   }
@@ -243,33 +244,33 @@ TEST(NdfAtlas, BlendsTheTexelsThatATrilinearLookupDoes) {
       for (const double level : {2.0, 2.7, 4.3}) {
         const double edge = std::exp2(level) / 64.0;
         const FootprintRect rect{centre - 0.5 * edge, centre + 0.5 * edge};
-        std::vector<double> truth;
-        for (const glm::dvec3& h : directions) truth.push_back(sum.density(centre, level, h));
-        EXPECT_LT(relative_l2(ndf.at(rect, directions), truth), 0.04)
+        std::vector<double> exact;
+        for (const glm::dvec3& h : directions) exact.push_back(sum.density(centre, level, h));
+        EXPECT_LT(relative_l2(ndf.at(rect, directions), exact), 0.04)
             << static_cast<int>(wrap) << " " << centre.x << " " << level;
       }
     }
   }
 }
 
-// A footprint four times as long as wide is that of four probes; with more of them than are kept from light to light.
+// A footprint four times as long as wide is that of four probes; with more of them than are reused from light to light.
 TEST(NdfAtlas, SumsTheProbesOfALongFootprint) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(40, 60);
   const Material material = lobe_material(random_normals(64, 64, 0.6F, 5), blinn_phong, 64.0F);
   const TrilinearSum sum(material, Wrap::repeat);
   const glm::dvec2 size = glm::dvec2(24.0, 6.0) / 64.0;
   const glm::dvec2 centre(0.4, 0.3);
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const glm::dvec3& h : directions) {
     double mean = 0.0;
     for (int i = 1; i <= 4; ++i)
       mean += 0.25 * sum.density(centre + glm::dvec2(size.x * (i / 5.0 - 0.5), 0.0), std::log2(6.0), h);
-    truth.push_back(mean);
+    exact.push_back(mean);
   }
   const FootprintRect rect{centre - 0.5 * size, centre + 0.5 * size};
-  EXPECT_LT(relative_l2(PipelineNdf(material, {FootprintFilterKind::anisotropic, 8}).at(rect, directions), truth),
+  EXPECT_LT(relative_l2(PipelineNdf(material, {FootprintFilterKind::anisotropic, 8}).at(rect, directions), exact),
             0.04);
-  EXPECT_GT(relative_l2(PipelineNdf(material, {FootprintFilterKind::anisotropic, 2}).at(rect, directions), truth), 0.1)
+  EXPECT_GT(relative_l2(PipelineNdf(material, {FootprintFilterKind::anisotropic, 2}).at(rect, directions), exact), 0.1)
       << "the gate: two probes are another footprint";
 }
 
@@ -281,9 +282,9 @@ TEST(NdfAtlas, KeepsTheEnergyOfTheSumOverTexels) {
   for (const auto& [distribution, lobe] : sweep(lobes, 2)) {
     for (const Image& normals : {random_normals(16, 16, 0.4F, 6), holes}) {
       const Material material = lobe_material(normals, distribution, lobe);
-      const double truth = energy_of(truth_of(material, directions));
+      const double exact = energy_of(exact_densities(material, directions));
       for (const char* const tables : {"unorm8", "fp16"}) {
-        EXPECT_NEAR(energy_of(probe_ndf(tabulated(material, {{"tables", tables}}), directions)) / truth, 1.0, 0.01)
+        EXPECT_NEAR(energy_of(probe_ndf(tabulated(material, {{"tables", tables}}), directions)) / exact, 1.0, 0.01)
             << lobe << " " << normals.width << " " << tables;
       }
     }
@@ -294,19 +295,19 @@ TEST(NdfAtlas, KeepsTheEnergyOfTheSumOverTexels) {
 TEST(NdfAtlas, EveryLevelKeepsTheEnergy) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(120, 120);
   const Material material = lobe_material(random_normals(64, 64, 0.5F, 9), blinn_phong, 64.0F);
-  const double truth = energy_of(truth_of(material, directions));
+  const double exact = energy_of(exact_densities(material, directions));
   const PipelineNdf ndf(material, {});
   for (double level = 0.0; level <= 6.0; level += 0.5) {
     const glm::dvec2 half_edge(0.5 * std::exp2(level) / 64.0);
     const std::vector<double> density = ndf.at({0.37 - half_edge, 0.37 + half_edge}, directions);
-    EXPECT_NEAR(energy_of(density) / truth, 1.0, 0.01) << level;
+    EXPECT_NEAR(energy_of(density) / exact, 1.0, 0.01) << level;
   }
 }
 
-// The mean of a picture of evenly spread light is the same whatever filters it, and at any distance.
+// The mean of a picture of evenly spread light is the same under any filter and at any distance.
 TEST(NdfAtlas, EveryFilterKeepsTheEnergy) {
   const BaseBrdf brdf{blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
-  Image normals(64, 64, 4, 1.0F);  // grooves: what lies between two texels of a wall is one lobe
+  Image normals(64, 64, 4, 1.0F);  // grooves: between two texels of a wall is one lobe
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       const glm::vec3 n = glm::normalize(
@@ -317,14 +318,15 @@ TEST(NdfAtlas, EveryFilterKeepsTheEnergy) {
   Scene scene = square_scene(normals, {.brdf = brdf, .base_color = glm::vec3(0.0F), .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 8.0F;
   TestRenderer renderer(scene, {32, 32});
-  const double truth = covered_mean(renderer.reference(256).mean);
+  const double reference = covered_mean(renderer.reference(256).mean);
   const std::array texts{"ndf_atlas:level=1", "ndf_atlas:level=2:tables=fp16"};
   std::size_t number = 0;
   for (const char* const filter :
        {"trilinear", "anisotropic:8", "box:3", "area:3", "ewa:8", "shaded:2", "hardware:4"}) {
     for (const char* const text : sweep(texts, 1, number++))
-      EXPECT_NEAR(covered_mean(renderer.frame(ndf_atlas_method(), text, parse_footprint_filter(filter, ""))) / truth,
-                  1.0, 0.01)
+      EXPECT_NEAR(
+          covered_mean(renderer.frame(ndf_atlas_method(), text, parse_footprint_filter(filter, ""))) / reference, 1.0,
+          0.01)
           << filter << " " << text;
   }
 }
@@ -347,18 +349,18 @@ TEST(NdfAtlas, TabulatesEachFacetsOwnRoughness) {
   material.metallic_roughness_map =
       TextureMap{"roughness", std::make_shared<const Image>(roughness), material.normal_map->coordinates};
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const glm::dvec3& h : directions) {
     double sum = 0.0;
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 32; ++x)
         sum += base_density(ggx, std::pow(roughness.at(x / 2, y / 2)[0], 2.0), normal_at(normals, x, y), h);
-    truth.push_back(sum / 1024.0);
+    exact.push_back(sum / 1024.0);
   }
   ProbedMethod probed = tabulated(material);
   probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation));
-  EXPECT_LT(relative_l2(probe_ndf(probed, directions), truth), 0.03);
-  EXPECT_GT(relative_l2(probe_ndf(tabulated(material, {{"level", "10"}, {"nodes", "8"}}), directions), truth), 0.1)
+  EXPECT_LT(relative_l2(probe_ndf(probed, directions), exact), 0.03);
+  EXPECT_GT(relative_l2(probe_ndf(tabulated(material, {{"level", "10"}, {"nodes", "8"}}), directions), exact), 0.1)
       << "the gate: lobes of the mean width";
 }
 
@@ -378,7 +380,7 @@ TEST(NdfAtlas, GeometryIsAboutTheNormalsThatReflect) {
     constexpr double a2 = 0.2 * 0.2;
     return 0.5 * nl / (nl * std::sqrt(a2 + (1.0 - a2) * nv * nv) + nv * std::sqrt(a2 + (1.0 - a2) * nl * nl));
   };
-  const std::vector<double> truth = means_over_texels(normals, inputs.size(), [&](const glm::dvec3& n, std::size_t i) {
+  const std::vector<double> exact = means_over_texels(normals, inputs.size(), [&](const glm::dvec3& n, std::size_t i) {
     const glm::dvec3 wi(inputs[i][0]);
     const glm::dvec3 wo(inputs[i][1]);
     return base_density(ggx, 0.2, n, glm::normalize(wi + wo)) * smith(n, wi, wo);
@@ -390,12 +392,12 @@ TEST(NdfAtlas, GeometryIsAboutTheNormalsThatReflect) {
     for (const glm::vec4& v : probe_method(tabulated(material), body, inputs)) out.push_back(v.x);
     return out;
   };
-  const double error = relative_l2(reflected(""), truth);
+  const double error = relative_l2(reflected(""), exact);
   EXPECT_LT(error, 0.092);
-  EXPECT_GT(relative_l2(reflected("e.narrowing = 0.0;"), truth), 1.5 * error) << "the gate: about the mean normal";
+  EXPECT_GT(relative_l2(reflected("e.narrowing = 0.0;"), exact), 1.5 * error) << "the gate: about the mean normal";
 }
 
-// Lobes that no lattice holds have lobes alone, and a note; so has a roughness map that lies elsewhere.
+// Lobes that are too narrow for a lattice get a note and no tables; so does a roughness map on other coordinates.
 TEST(NdfAtlas, SaysWhereItHasNoTables) {
   const Image normals = random_normals(32, 32, 0.6F, 3);
   const std::vector<glm::dvec3> directions = hemisphere_grid(30, 60);
@@ -423,7 +425,7 @@ TEST(NdfAtlas, SaysWhereItHasNoTables) {
   EXPECT_TRUE(has_tables(baked(rough, {}, effects)));
 }
 
-TEST(NdfAtlas, StartsAtALevelThatMemoryHolds) {
+TEST(NdfAtlas, StartsAtALevelThatFitsMemory) {
   const Material material = lobe_material(random_normals(128, 128, 0.6F, 3), blinn_phong, 64.0F);
   const Prefiltered whole = baked(material, {{"level", "1"}});
   const Prefiltered small = baked(material, {{"level", "1"}, {"megabytes", "2"}});
@@ -446,10 +448,10 @@ TEST(NdfAtlas, IsCloserThanAlignedMixturesFromAfar) {
   const Image map = surface_normals(surface, settings);
   const Material material = lobe_material(map, blinn_phong, 64.0F);
   const std::vector<glm::dvec3> directions = hemisphere_grid(30, 60);
-  const std::vector<double> truth = truth_of(material, directions);
-  const double error = relative_l2(probe_ndf(tabulated(material), directions), truth);
+  const std::vector<double> exact = exact_densities(material, directions);
+  const double error = relative_l2(probe_ndf(tabulated(material), directions), exact);
   EXPECT_LT(error,
-            0.5 * relative_l2(probe_ndf({.method = &tan_gmm_method(), .material = &material}, directions), truth));
+            0.5 * relative_l2(probe_ndf({.method = &tan_gmm_method(), .material = &material}, directions), exact));
 }
 
 }  // namespace

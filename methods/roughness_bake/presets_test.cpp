@@ -20,7 +20,7 @@ const std::vector<double> alphas{0.02, 0.1, 0.3, 0.6, 0.69};
 
 double kappa_of(double r) { return (3 * r - r * r * r) / (1 - r * r); }
 
-// solveVMF of roughness-prefilter: 10000 stands only for lengths that no kappa fits.
+// solveVMF of roughness-prefilter: 10000 is only for lengths that no kappa fits.
 double filament_kappa(double r) { return r < 1 ? kappa_of(r) : 1e4; }
 
 // The mean cosine of GGX's normals, each by its share of the surface's area: an integral over tan^2.
@@ -159,7 +159,7 @@ TEST(RoughnessPresets, FreeTakesItsOwnConstantAndCap) {
   EXPECT_NEAR(widened_alpha2(formula, ggx, 0.04, stored), 0.09, 1e-12);
 }
 
-// Engines' words, told apart from the published numbers: a map whose normals cancel stays finite.
+// Engines' behaviour beyond the published numbers: a map whose normals cancel stays finite.
 TEST(RoughnessPresets, StayFiniteWhereNormalsCancel) {
   for (std::size_t i = 0; i < preset_names.size(); ++i)
     EXPECT_TRUE(std::isfinite(widened(static_cast<Preset>(i), 0.01, 0.0))) << preset_names[i];

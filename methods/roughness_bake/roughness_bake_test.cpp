@@ -68,12 +68,12 @@ Scene bumpy_scene(NormalDistribution distribution) {
 }
 
 // Far away: the best constant leaves the least, and a constant of 0 is the naive mip.
-TEST(RoughnessBake, TheFitIsClosestToTheTruthFarAway) {
+TEST(RoughnessBake, TheFitIsClosestToTheReferenceFarAway) {
   for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::beckmann}) {
     TestRenderer renderer(bumpy_scene(distribution), {16, 16});
-    const Image truth = renderer.reference(1024).mean;
+    const Image reference = renderer.reference(1024).mean;
     const auto error = [&](const std::string& text) {
-      return compare_images(renderer.frame(roughness_bake_method(), text), truth, 1.0F).value().relative_rmse;
+      return compare_images(renderer.frame(roughness_bake_method(), text), reference, 1.0F).value().relative_rmse;
     };
     const double fit = error("roughness_bake");
     EXPECT_LT(fit, 0.5 * error("roughness_bake:preset=free:constant=0"));
@@ -90,7 +90,7 @@ TEST(RoughnessBake, ConstantOfZeroIsTheNaiveMip) {
   EXPECT_LT(compare_images(none, naive, 1.0F).value().relative_rmse, 1e-6);
 }
 
-// One preset's map holds what another's does not: each has its own.
+// The maps of presets differ: each has its own.
 TEST(RoughnessBake, EveryPresetDrawsAPictureOfItsOwn) {
   TestRenderer renderer(bumpy_scene(NormalDistribution::ggx), {16, 16});
   std::vector<double> means;

@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 const std::vector<double> alphas{0.003, 0.05, 0.3, 0.7, 0.99};
 
-// From nothing to more than a lobe can hold, in directions of all signs.
+// From nothing to more than a lobe can represent, in directions of all signs.
 std::vector<NormalSteps> many_steps() {
   std::vector<NormalSteps> steps;
   for (const double size : {0.0, 1e-3, 0.03, 0.2, 0.6, 1.3})
@@ -127,7 +127,7 @@ TEST(ScreenPresets, HalfVectorsOf2019SpreadInSlopes) {
   EXPECT_NEAR(found[0][1], 0, 1e-12);
 }
 
-// A microfacet density times the cosine integrates to one, whatever the matrix.
+// A microfacet density times the cosine integrates to one, for any matrix.
 TEST(ScreenPresets, MatrixDensitiesAreNormalised) {
   const glm::dmat2 alpha2(0.2, 0.05, 0.05, 0.06);
   for (const NormalDistribution distribution : {NormalDistribution::ggx, NormalDistribution::beckmann}) {

@@ -132,7 +132,7 @@ float alpha2Before(Footprints f) {
 }
 
 //? if screen_derivatives
-// Shading normals of this pixel and of the next ones, which a texture tells without their being drawn.
+// Shading normals of this pixel and of the next ones, from a texture, because those pixels may not be drawn.
 struct ScreenNormals {
   vec3 here;
   vec3 right;  // in the frame of the pixel on the right

@@ -151,7 +151,7 @@ double middle(const Image& picture) { return picture.at(picture.width / 2, pictu
 TEST(SpecularAa, WidensASphereByItsCurvature) {
   constexpr float edge = 0.5F, roughness = 0.2F;
   constexpr int pixels = 9;
-  // The next pixel's normal is told by the triangle at the pole, which is smaller than a pixel and carried on.
+  // The next pixel's normal comes from the triangle at the pole, which is smaller than a pixel and extrapolated.
   const double cell = 2.0 * edge / bowl_cells;
   const double drop = (std::sqrt(1.0 - cell * cell) - 1.0) / cell;
   const glm::dvec2 next = glm::normalize(glm::dvec2(2.0 * edge / pixels, 1.0 + 2.0 * edge / pixels * drop));
@@ -176,7 +176,7 @@ TEST(SpecularAa, WidensASphereByItsCurvature) {
   }
 }
 
-// What the next pixels hold is told within four pixels, which tiles of any even size leave together.
+// Four pixels share their normals, and tiles of any even size leave these four together.
 TEST(SpecularAa, IsTheSameFourPixelsByFourPixelsWhereTheSurfaceIsCurved) {
   TestRenderer renderer(bowl(0.12F, 0.7F), {16, 16});
   const Image direct = renderer.frame(direct_method());
@@ -229,8 +229,8 @@ TEST(SpecularAa, OverABakeOnAPlaneIsTheBake) {
   EXPECT_LT(compare_images(renderer.frame(specular_aa_method()), bare, 1.0F).value().relative_rmse, 1e-4);
 }
 
-// A map whose slopes grow evenly: what the bake finds within a pixel's footprint, the next pixel's shading normal tells
-// once more, and the two widen the lobe one after the other.
+// A map whose slopes grow evenly: the next pixel's shading normal shows again what the bake finds within a pixel's
+// footprint, and the two widen the lobe one after the other.
 TEST(SpecularAa, CountsTheMapsOwnSpreadOnTopOfTheBake) {
   constexpr int pixels = 9, texels = 32 * pixels;
   constexpr float slope = 0.9F;  // at the map's edge
@@ -273,8 +273,8 @@ TEST(SpecularAa, RefusesAConstantThatIsNotThePresets) {
   EXPECT_THROW((void)specular_aa_method().precompute(material, options, {}, no_progress), Error);
 }
 
-// A module that does not ask is not told, and pays nothing: no text of it.
-TEST(SpecularAa, OthersAreNotToldOfTheNextPixels) {
+// A module that does not need the next pixels costs nothing: its text has no code for them.
+TEST(SpecularAa, OthersDoNotGetTheNextPixels) {
   TestRenderer renderer(bumpy_scene(), {4, 4});
   EXPECT_NE(renderer.fragment_text(specular_aa_method()).find("frame_dx"), std::string::npos);
   EXPECT_EQ(renderer.fragment_text(direct_method()).find("frame_dx"), std::string::npos);

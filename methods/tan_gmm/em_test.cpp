@@ -122,7 +122,7 @@ std::array<double, 3> maximum(Function f, std::array<double, 3> at) {
   return at;
 }
 
-// The expected log posterior Q of one component as a function of mu and log sigma^2, responsibilities held.
+// The expected log posterior Q of one component as a function of mu and log sigma^2, with fixed responsibilities.
 std::array<double, 3> maximum_of_q(const Problem& p, const std::vector<std::vector<double>>& z, std::size_t i) {
   const auto q = [&](const std::array<double, 3>& at) {
     double sum = 0;
@@ -169,7 +169,7 @@ TEST(TanEm, ExpectationMeetsTheSumOverSamples) {
   }
 }
 
-// mu and sigma^2 depend on one another, so that a step is repeated, responsibilities held, until neither moves.
+// mu and sigma^2 depend on one another, so that a step is repeated, with fixed responsibilities, until neither moves.
 TEST(TanEm, ExactMStepIsTheMaximumOfQ) {
   std::mt19937 random(2);
   Problem p = random_problem(random, 40, 2);

@@ -13,7 +13,7 @@
 namespace footprint::tan_gmm {
 namespace {
 
-// Two streaks that cross: no isotropic pair can tell them apart.
+// Two streaks that cross: no isotropic pair can separate them.
 Samples crossed_streaks(int count) {
   std::mt19937 random(5);
   std::normal_distribution<float> along(0.0F, 0.2F);
@@ -99,17 +99,17 @@ TEST(FullCovariance, StepsDoNotLowerTheLikelihood) {
   }
 }
 
-// A prior of great weight holds the mean; one of none leaves it.
+// A prior of great weight fixes the mean; one of none leaves it.
 TEST(FullCovariance, ThePriorDrawsTheMean) {
   const Samples samples = crossed_streaks(100);
   const std::array<Gaussian, 1> start{{{.alpha = 1.0F, .variance = 0.02F}}};
   const std::array<Gaussian, 1> neighbour{{{.alpha = 1.0F, .x = 0.3F, .y = 0.1F}}};
-  std::array<FullGaussian, 1> held{};
+  std::array<FullGaussian, 1> fixed{};
   Prior prior(1e6);
   prior.add(neighbour);
-  fit_full(samples, prior, {.components = 1}, start, held);
-  EXPECT_NEAR(held[0].x, 0.3, 0.01);
-  EXPECT_NEAR(held[0].y, 0.1, 0.01);
+  fit_full(samples, prior, {.components = 1}, start, fixed);
+  EXPECT_NEAR(fixed[0].x, 0.3, 0.01);
+  EXPECT_NEAR(fixed[0].y, 0.1, 0.01);
   std::array<FullGaussian, 1> loose{};
   fit_full(samples, Prior(0.0), {.components = 1}, start, loose);
   EXPECT_LT(std::abs(loose[0].x), 0.05);

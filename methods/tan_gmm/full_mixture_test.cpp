@@ -46,18 +46,18 @@ std::vector<double> ndf_of(const Material& material, const WordOptions& options,
 }
 
 // The mean of the texels' own lobes.
-std::vector<double> truth_of(const Material& material, const std::vector<glm::dvec3>& directions) {
+std::vector<double> exact_densities(const Material& material, const std::vector<glm::dvec3>& directions) {
   const Image normals = material.normal_map->image.decoded();
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const glm::dvec3& h : directions) {
     double sum = 0.0;
     for (std::size_t i = 0; i < normals.texels.size(); i += 4) {
       const glm::dvec3 n(normals.texels[i], normals.texels[i + 1], normals.texels[i + 2]);
       sum += base_density(material.brdf.distribution, *material.lobe_parameter, glm::normalize(n), h);
     }
-    truth.push_back(sum / static_cast<double>(normals.texel_count()));
+    exact.push_back(sum / static_cast<double>(normals.texel_count()));
   }
-  return truth;
+  return exact;
 }
 
 double squared_distance(const std::vector<double>& a, const std::vector<double>& b) {
@@ -103,20 +103,20 @@ TEST(TanGmmFull, KeepsTheEnergyOfTheSumOverTexels) {
   for (const auto& [distribution, lobe] :
        {std::pair{NormalDistribution::blinn_phong, 64.0F}, {NormalDistribution::ggx, 0.1F}}) {
     const Material material = streaked_material(random_normals(8, 8, 0.5F, 3), distribution, lobe);
-    const double truth = energy(truth_of(material, directions));
+    const double exact = energy(exact_densities(material, directions));
     for (const char* const storage : {"fp32", "fp16"})
-      EXPECT_NEAR(energy(ndf_of(material, {{"covariance", "full"}, {"storage", storage}}, directions)) / truth, 1.0,
+      EXPECT_NEAR(energy(ndf_of(material, {{"covariance", "full"}, {"storage", storage}}, directions)) / exact, 1.0,
                   0.01)
           << storage << lobe;
   }
 }
 
-TEST(TanGmmFull, HoldsAStreakThatTwoRoundOnesDoNot) {
+TEST(TanGmmFull, FitsAStreakThatTwoRoundOnesDoNot) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
   const Material material = streaked_material(streak({0.2, 0.1}), NormalDistribution::blinn_phong, 512.0F);
-  const std::vector<double> truth = truth_of(material, directions);
-  const double full = squared_distance(ndf_of(material, {{"covariance", "full"}, {"n", "2"}}, directions), truth);
-  const double isotropic = squared_distance(ndf_of(material, {{"n", "2"}}, directions), truth);
+  const std::vector<double> exact = exact_densities(material, directions);
+  const double full = squared_distance(ndf_of(material, {{"covariance", "full"}, {"n", "2"}}, directions), exact);
+  const double isotropic = squared_distance(ndf_of(material, {{"n", "2"}}, directions), exact);
   EXPECT_LT(full, 0.25 * isotropic);
 }
 

@@ -167,7 +167,7 @@ TEST(TanSamples, PoolingKeepsTheMoments) {
 }
 
 // The relative L2 distance of two NDFs over the disc.
-double ndf_distance(std::span<const Recovered> mixture, const std::function<double(const glm::dvec3&)>& truth,
+double ndf_distance(std::span<const Recovered> mixture, const std::function<double(const glm::dvec3&)>& expected,
                     double base) {
   double difference = 0;
   double norm = 0;
@@ -177,7 +177,7 @@ double ndf_distance(std::span<const Recovered> mixture, const std::function<doub
       const glm::dvec2 p((i + 0.5) * 2.0 / cells - 1.0, (j + 0.5) * 2.0 / cells - 1.0);
       if (glm::dot(p, p) >= 0.99) continue;
       const glm::dvec3 h(p, std::sqrt(1.0 - glm::dot(p, p)));
-      const double d = truth(h);
+      const double d = expected(h);
       const double error = ndf_cut_at_rim(mixture, base, h) - d;
       difference += error * error / h.z;
       norm += d * d / h.z;
@@ -213,8 +213,8 @@ TEST(TanSamples, PoolingLeavesTheFit) {
     return out;
   };
   const std::vector<Recovered> exact = fitted(samples);
-  const auto truth = [&](const glm::dvec3& h) { return ndf_cut_at_rim(exact, 1.0 / 512, h); };
-  EXPECT_LT(ndf_distance(fitted(pooled), truth, 1.0 / 512), 2e-3);
+  const auto expected = [&](const glm::dvec3& h) { return ndf_cut_at_rim(exact, 1.0 / 512, h); };
+  EXPECT_LT(ndf_distance(fitted(pooled), expected, 1.0 / 512), 2e-3);
 }
 
 TEST(TanChain, DoesNotDependOnThreads) {
@@ -243,15 +243,15 @@ TEST(TanChain, EveryCountOfGaussiansKeepsWeightAndMean) {
           for (const glm::dvec4& t : texel_of(chain, level, x, y)) sum += t;
           Samples samples;
           field.gather(first.width, first.height, x, y, samples);
-          glm::dvec4 truth(0.0);
+          glm::dvec4 expected(0.0);
           for (std::size_t k = 0; k < samples.size(); ++k) {
             const double nx = samples.x[k];
             const double ny = samples.y[k];
-            truth += static_cast<double>(samples.weight[k]) * glm::dvec4(1.0, nx, ny, nx * nx + ny * ny);
+            expected += static_cast<double>(samples.weight[k]) * glm::dvec4(1.0, nx, ny, nx * nx + ny * ny);
           }
-          truth /= samples.total_weight();
+          expected /= samples.total_weight();
           // A maximum of the likelihood keeps weight and mean of the samples, and their second moment.
-          EXPECT_LT(glm::length(sum - truth), 1e-5) << "n " << n << ", level " << level;
+          EXPECT_LT(glm::length(sum - expected), 1e-5) << "n " << n << ", level " << level;
         }
       }
     }
@@ -318,8 +318,8 @@ double half_way_error(const Image& map, const FitSettings& settings, std::size_t
       field.gather(width, height, x, y, both);
       field.gather(width, height, x + 1, y, other);
       for (std::size_t k = 0; k < other.size(); ++k) both.add(other.x[k], other.y[k], 0.0F, other.weight[k]);
-      const auto truth = [&](const glm::dvec3& h) { return sum_over(both, base, h); };
-      sum += ndf_distance(recovered_mixture(blended, moment == Moment::corrected), truth, base);
+      const auto expected = [&](const glm::dvec3& h) { return sum_over(both, base, h); };
+      sum += ndf_distance(recovered_mixture(blended, moment == Moment::corrected), expected, base);
     }
   }
   return sum / (height * (width - 1));

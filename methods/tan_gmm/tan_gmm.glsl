@@ -148,8 +148,8 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   if (e.amount[i] <= 0.0) return 0.0;
   float widened = widenedLobe(k, e.spread[i]);
-  float kept = lobeEnergy(facet_lobes[k].parameter) / lobeEnergy(widened);
-  return e.share[i] * kept * lobeDensity(widened, facet_lobes[k].axis, own);
+  float energy = lobeEnergy(facet_lobes[k].parameter) / lobeEnergy(widened);
+  return e.share[i] * energy * lobeDensity(widened, facet_lobes[k].axis, own);
 }
 //? end
 //? end

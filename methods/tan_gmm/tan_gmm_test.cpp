@@ -1,5 +1,5 @@
 // The module of Tan's mixtures: what it recovers behind the texture filter, its NDF and its energy, against golden
-// numbers, integrals and the truth it stands for.
+// numbers, integrals and the exact NDF.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -199,7 +199,7 @@ TEST(TanGmm, RimFactorMeetsTheIntegral) {
   }
 }
 
-// A grid over the disc: h, and the area that each point stands for.
+// A grid over the disc: h, and the area of each point.
 struct Disc {
   Inputs inputs;
   double area;
@@ -241,17 +241,17 @@ struct NdfError {
 NdfError ndf_error(const Image& normals, float s, const Given& given = {}) {
   const Disc disc(160, s);
   const auto out = probed(baked(normals, given), given, "return vec4(ndf(e, b.xyz));", disc.inputs);
-  std::vector<double> truth;
-  for (const auto& input : disc.inputs) truth.push_back(exact_ndf(normals, s, glm::dvec3(input[1])));
+  std::vector<double> exact;
+  for (const auto& input : disc.inputs) exact.push_back(exact_ndf(normals, s, glm::dvec3(input[1])));
   const double energy = disc.integral([&](std::size_t i) { return static_cast<double>(out[i].x); });
-  const double true_energy = disc.integral([&](std::size_t i) { return truth[i]; });
-  const double difference = disc.integral([&](std::size_t i) { return std::pow(out[i].x - truth[i], 2.0); });
-  const double norm = disc.integral([&](std::size_t i) { return truth[i] * truth[i]; });
+  const double true_energy = disc.integral([&](std::size_t i) { return exact[i]; });
+  const double difference = disc.integral([&](std::size_t i) { return std::pow(out[i].x - exact[i], 2.0); });
+  const double norm = disc.integral([&](std::size_t i) { return exact[i] * exact[i]; });
   return {energy / true_energy, std::sqrt(difference / norm)};
 }
 
-// Energy over solid angle, relative to the truth's, within 1%: flat, tilted, spread, and as far as the rim.
-TEST(TanGmm, EnergyIsTheTruths) {
+// Energy over solid angle, relative to the exact NDF's, within 1%: flat, tilted, spread, and as far as the rim.
+TEST(TanGmm, EnergyIsThatOfTheExactNdf) {
   for (const float s : {64.0F, 512.0F}) {
     for (const float tilt : {0.0F, 0.5F, 0.8F, 0.95F}) {
       const glm::vec3 normal(tilt, 0.0F, std::sqrt(1.0F - tilt * tilt));
@@ -355,11 +355,11 @@ TEST(TanGmm, GrazingViewKeepsTheBound) {
   EXPECT_LE(out[0].x, out[0].y * 1.0001F);
 }
 
-double picture_error(TestRenderer& renderer, const Image& truth, const std::string& text, double distance = 1.0) {
-  return compare_images(renderer.frame(tan_gmm_method(), text, {}, 0, distance), truth, 1.0F).value().relative_rmse;
+double picture_error(TestRenderer& renderer, const Image& reference, const std::string& text, double distance = 1.0) {
+  return compare_images(renderer.frame(tan_gmm_method(), text, {}, 0, distance), reference, 1.0F).value().relative_rmse;
 }
 
-// Where a pixel holds many grooves, two lobes and not one; between texels, aligned ones.
+// Where a pixel covers many grooves, two lobes and not one; between texels, aligned ones.
 TEST(TanGmm, PicturesOfGroovesNeedAlignedMixtures) {
   Image map(256, 256, 4, 1.0F);
   for (int y = 0; y < 256; ++y) {
@@ -372,11 +372,11 @@ TEST(TanGmm, PicturesOfGroovesNeedAlignedMixtures) {
   Scene scene = square_scene(map, {.brdf = blinn_phong, .base_color = glm::vec3(0.0F), .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 100.0F;
   TestRenderer renderer(scene, {40, 40});
-  const Image truth = renderer.reference(1024).mean;
-  const double aligned = picture_error(renderer, truth, "tan_gmm");
-  EXPECT_LT(aligned, 0.5 * picture_error(renderer, truth, "tan_gmm:align=off"));
-  EXPECT_LT(aligned, 0.5 * picture_error(renderer, truth, "tan_gmm:n=1"));
-  EXPECT_LT(picture_error(renderer, truth, "tan_gmm:storage=fp16"), 1.2 * aligned);
+  const Image reference = renderer.reference(1024).mean;
+  const double aligned = picture_error(renderer, reference, "tan_gmm");
+  EXPECT_LT(aligned, 0.5 * picture_error(renderer, reference, "tan_gmm:align=off"));
+  EXPECT_LT(aligned, 0.5 * picture_error(renderer, reference, "tan_gmm:n=1"));
+  EXPECT_LT(picture_error(renderer, reference, "tan_gmm:storage=fp16"), 1.2 * aligned);
 }
 
 // A base lobe that varies enters as the mean of its variance: stripes of two roughnesses, two texels to a pixel, are

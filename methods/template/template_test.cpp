@@ -1,4 +1,4 @@
-// What every method's own test should hold: its formula against a sum that shares no code with it, the limit where
+// The checks of every method's own test: its formula against a sum that shares no code with it, the limit where
 // there is nothing to filter, the case that it is made for, and what it leaves out.
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ Prefiltered baked(const Material& material) {
   return template_method().precompute(material, options, EffectSet{}.set(), no_progress);
 }
 
-double difference(const Image& picture, const Image& truth) {
-  return compare_images(picture, truth, 1.0F).value().relative_rmse;
+double difference(const Image& picture, const Image& reference) {
+  return compare_images(picture, reference, 1.0F).value().relative_rmse;
 }
 
 // (1 - |mean|) / |mean| of the `edge` x `edge` texels from column x, row y.
@@ -56,11 +56,11 @@ TEST(Template, SpreadIsThatOfIndependentTexels) {
 
 TEST(Template, EqualsTheBaseSurfaceOnAConstantMap) {
   Image normals = constant_normals(64, 64, glm::vec3(0.28F, 0.0F, 0.96F));
-  normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+  normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is not a visible bump
   TestRenderer renderer(square_scene(normals, {.brdf = blinn_phong}));
   for (const double distance : {0.05, 1.0, 4.0}) {
-    const Image truth = renderer.frame(base_surface(), {}, {}, 0, distance);
-    EXPECT_LT(difference(renderer.frame(template_method(), {}, {}, 0, distance), truth), 1e-3) << distance;
+    const Image reference = renderer.frame(base_surface(), {}, {}, 0, distance);
+    EXPECT_LT(difference(renderer.frame(template_method(), {}, {}, 0, distance), reference), 1e-3) << distance;
   }
 }
 
@@ -69,9 +69,9 @@ TEST(Template, BeatsTheUnwidenedLobeFarAway) {
                              {.brdf = blinn_phong, .base_color = glm::vec3(0.0F), .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 200.0F;
   TestRenderer renderer(scene, {16, 16});
-  const Image truth = renderer.reference(1024).mean;
-  const double unwidened = difference(renderer.frame(template_method(), "template:share=0"), truth);
-  EXPECT_LT(difference(renderer.frame(template_method()), truth), 0.5 * unwidened);
+  const Image reference = renderer.reference(1024).mean;
+  const double unwidened = difference(renderer.frame(template_method(), "template:share=0"), reference);
+  EXPECT_LT(difference(renderer.frame(template_method()), reference), 0.5 * unwidened);
 }
 
 // Normals that cancel have no mean: the lobe is then the widest, and the picture stays finite.

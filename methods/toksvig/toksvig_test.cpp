@@ -1,4 +1,4 @@
-// Toksvig's formula, run through the module itself, against golden numbers and against the truth it stands for.
+// Toksvig's formula, run through the module itself, against golden numbers and against the reference.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -72,7 +72,7 @@ TEST(Toksvig, FourTexelsMeetTheGoldenExponent) {
   EXPECT_NEAR(r.axis.z, 0.9822418366057123, 1e-6);
 }
 
-// Hard cases 23 and 24: a flat map leaves the exponent, within 1e-3 at 1e4 and 1% at 1e5, whatever the normal.
+// Hard cases 23 and 24: a flat map leaves the exponent, within 1e-3 at 1e4 and 1% at 1e5, for any normal.
 TEST(Toksvig, FlatMapKeepsTheExponent) {
   for (const glm::vec3& normal :
        {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F), glm::normalize(glm::vec3(0.3F, -0.5F, 0.7F))}) {
@@ -119,15 +119,15 @@ TEST(Toksvig, HalfFloatsDegradeGracefully) {
   EXPECT_LE(r.lobe, 1.001e5F);
 }
 
-// Far away, where a pixel holds many bumps, the widened lobe is nearer to the truth than the renormalised mean normal.
+// Far away, where a pixel covers many bumps, the widened lobe is closer to the reference than the mean normal.
 TEST(Toksvig, BeatsTheUnwidenedLobeFarAway) {
   Scene scene = square_scene(random_normals(256, 256, 0.4F, 9),
                              {.brdf = blinn_phong, .base_color = glm::vec3(0.0F), .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 200.0F;
   TestRenderer renderer(scene, {16, 16});
-  const Image truth = renderer.reference(1024).mean;
+  const Image reference = renderer.reference(1024).mean;
   const auto error = [&](const std::string& text) {
-    return compare_images(renderer.frame(toksvig_method(), text), truth, 1.0F).value().relative_rmse;
+    return compare_images(renderer.frame(toksvig_method(), text), reference, 1.0F).value().relative_rmse;
   };
   EXPECT_LT(error("toksvig"), 0.5 * error("toksvig:spread=0"));
 }

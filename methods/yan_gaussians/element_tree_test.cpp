@@ -1,4 +1,4 @@
-// The hierarchy holds every point once, within its bounds, and is the same at any number of threads; elements have the
+// The hierarchy has every point once, within its bounds, and is the same at any number of threads; elements have the
 // slopes of their map.
 #include "methods/yan_gaussians/elements.hpp"
 
@@ -32,7 +32,7 @@ Cloud random_cloud(std::size_t count) {
 
 class ElementTreeOf : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(ElementTreeOf, HoldsEveryPointOnceInLeavesOfAtMostEight) {
+TEST_P(ElementTreeOf, HasEveryPointOnceInLeavesOfAtMostEight) {
   const Cloud cloud = random_cloud(GetParam());
   const ElementTree tree = build_element_tree(cloud.points, cloud.reach);
   std::vector<std::uint32_t> sorted = tree.order;
@@ -71,7 +71,7 @@ TEST_P(ElementTreeOf, HasBoundsThatHoldWhatIsBelow) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, ElementTreeOf, ::testing::Values(1, 2, 8, 9, 15, 16, 17, 1000, 4096, 30001));
 
-// Bounds that hold everything everywhere would pass the above: leaves are small in all four coordinates together.
+// Bounds around everything everywhere would pass the above: leaves are small in all four coordinates together.
 TEST(ElementTree, HasLeavesThatAreSmall) {
   const Cloud cloud = random_cloud(1U << 15U);
   const ElementTree tree = build_element_tree(cloud.points, std::vector<float>(cloud.points.size(), 0.0F));

@@ -78,16 +78,16 @@ class Builder {
   void build(int level, std::size_t place) const {
     const std::size_t node = (std::size_t{1} << level) + place;
     const std::size_t leaf = place << (tree_.depth - level), next = (place + 1) << (tree_.depth - level);
-    const std::span<std::uint32_t> held =
+    const std::span<std::uint32_t> points =
         std::span(tree_.order).subspan(tree_.leaf_begin(leaf), tree_.leaf_begin(next) - tree_.leaf_begin(leaf));
     if (level == tree_.depth) {
-      tree_.nodes[node] = bounds(held, true);
+      tree_.nodes[node] = bounds(points, true);
       return;
     }
     const std::size_t left = tree_.leaf_begin((leaf + next) / 2) - tree_.leaf_begin(leaf);
-    split(held, left, widest(bounds(held, false)));
+    split(points, left, widest(bounds(points, false)));
     const auto half = [&](std::size_t child) { build(level + 1, 2 * place + child); };
-    if (held.size() > 4096) {
+    if (points.size() > 4096) {
       tbb::parallel_invoke([&] { half(0); }, [&] { half(1); });
     } else {
       half(0);
@@ -97,11 +97,11 @@ class Builder {
   }
 
  private:
-  [[nodiscard]] TreeBounds bounds(std::span<const std::uint32_t> held, bool with_reach) const {
+  [[nodiscard]] TreeBounds bounds(std::span<const std::uint32_t> points, bool with_reach) const {
     TreeBounds out;
     out.low.fill(std::numeric_limits<float>::max());
     out.high.fill(std::numeric_limits<float>::lowest());
-    for (const std::uint32_t point : held) {
+    for (const std::uint32_t point : points) {
       for (std::size_t axis = 0; axis < 4; ++axis) {
         const float reach = with_reach && axis >= 2 ? reach_[point] : 0.0F;
         out.low[axis] = std::min(out.low[axis], points_[point][axis] - reach);
@@ -120,8 +120,8 @@ class Builder {
     return widest;
   }
 
-  void split(std::span<std::uint32_t> held, std::size_t left, std::size_t axis) const {
-    std::nth_element(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(left), held.end(),
+  void split(std::span<std::uint32_t> points, std::size_t left, std::size_t axis) const {
+    std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(left), points.end(),
                      [&](std::uint32_t a, std::uint32_t b) {
                        return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
                      });

@@ -75,7 +75,7 @@ Image waves(int width, int height) {
   return map;
 }
 
-// ---- the truth: every element as one 4D Gaussian of (u, s), its position spread by the footprint ----
+// ---- the exact density: every element as one 4D Gaussian of (u, s), its position spread by the footprint ----
 
 class BruteForce {
  public:
@@ -161,10 +161,10 @@ double worst_difference(const Image& map, const std::vector<Pixel>& pixels, doub
   const auto found = densities(material_of(map), words, pixels, directions());
   double worst = 0.0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const BruteForce truth(map, pixels[i], sigma_r, jacobians);
+    const BruteForce exact(map, pixels[i], sigma_r, jacobians);
     double peak = 0.0, difference = 0.0;
     for (std::size_t j = 0; j < directions().size(); ++j) {
-      const double expected = truth.density(directions()[j], copies);
+      const double expected = exact.density(directions()[j], copies);
       peak = std::max(peak, expected);
       if (!std::isfinite(expected) || !std::isfinite(found[i][j])) return std::nan("");
       difference = std::max(difference, std::abs(found[i][j] - expected));
@@ -204,7 +204,7 @@ TEST(YanGaussians, KeepFootprintsWiderThanTheMap) {
     EXPECT_NEAR(over_all[0][i], even.density(directions()[i], 4), 0.05 * even.density(directions()[i], 4) + 1e-3);
 }
 
-// Whatever the footprint: the Gaussian itself, of a map without bumps, leaning or not.
+// A map without bumps has the Gaussian itself under any footprint, leaning or not.
 TEST(YanGaussians, OfAFlatMapAreTheIntrinsicGaussian) {
   for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
     const auto found = densities(material_of(constant_normals(16, 8, normal)),

@@ -171,7 +171,7 @@ const int own_steps = (shade_calls > 1 ? 4000 : 8000) / shade_calls;
 int shared_steps = shade_calls > 1 ? 4000 : 0;
 const int draws = max(8192 / shade_calls, 1);
 
-// Whether the elements within reach of the footprint take more steps than allowed, whatever their normals.
+// Whether the elements within reach of the footprint take more steps than allowed, for any normals.
 bool isTooWide(Effective e, int most_steps) {
   vec2 sides = min(2.0 * e.reach, e.size);
   return normalReach() >= 2.0 && sides.x * sides.y > 4.0 * float(most_steps);

@@ -1,4 +1,4 @@
-// Bakes on disk: what was kept comes back whole, what is damaged does not come back at all.
+// Bakes on disk: stored bakes come back whole, damaged ones do not come back at all.
 #include "renderer/bake/bake_cache.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(PrefilteredFile, EveryCutAndEveryFlippedBitIsNoticed) {
   }
 }
 
-TEST(BakeCache, FindsWhatItKeptAndNothingElse) {
+TEST(BakeCache, FindsWhatItStoredAndNothingElse) {
   const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   EXPECT_FALSE(cache.find("a"));
   cache.store("a", example());
@@ -131,7 +131,7 @@ TEST(Bake, SlowPrecomputeIsDoneOnce) {
   EXPECT_FALSE(without.cached);
 }
 
-TEST(Bake, FastPrecomputeIsNotKept) {
+TEST(Bake, FastPrecomputeIsNotCached) {
   const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
   const Counting fast(false);

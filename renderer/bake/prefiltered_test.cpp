@@ -23,7 +23,7 @@ TEST(MakeTexture, Fp32IsExact) {
 }
 
 TEST(MakeTexture, Fp16RoundsToNearestAndClamps) {
-  // 1 + 2^-11 lies halfway: to even. 1 + 3 * 2^-12 rounds up; truncation would give 1.
+  // 1 + 2^-11 is halfway: to even. 1 + 3 * 2^-12 rounds up; truncation would give 1.
   const PrefilteredTexture t =
       make_texture("t", {row({1.0F + 0x1p-11F, 1.0F + 3 * 0x1p-12F, 1e6F, -1e6F})}, Storage::fp16, {});
   EXPECT_EQ(decode_level(t, 0).texels, (std::vector<float>{1.0F, 1.0F + 0x1p-10F, 65504.0F, -65504.0F}));
@@ -48,7 +48,7 @@ TEST(MakeTexture, NamesTheTexelThatIsNotFinite) {
   }
 }
 
-TEST(ByteCount, IsWhatTheGpuHolds) {
+TEST(ByteCount, IsTheSizeOnTheGpu) {
   const Image fine(4, 2, 3), coarse(2, 1, 3), last(1, 1, 3);
   const Prefiltered p{.textures = {make_texture("t", {fine, coarse, last}, Storage::fp16, {})},
                       .scalars = {{"s", 1.0F}},

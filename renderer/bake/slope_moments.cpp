@@ -180,7 +180,7 @@ OptionSpec steepest_slope_option() {
 }
 
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
-                        const KeptSlopes& kept) {
+                        const StoredSlopes& stored) {
   const Storage storage = parse_storage(options.word("storage"));
   const bool in_moments = options.word("roughness") == "moments" && has(effects, Effect::normal_variation);
   const double steepest = options.number("steepest");
@@ -191,13 +191,13 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     Image normals = spread_over(normal_map_of(material), variance.width, variance.height);
     note_steep_texels(normals, "normal map", steepest, out);
     const std::vector<Image> moments = slope_moment_chain(normals, variance, steepest);
-    add_textures("slope", moments, kept.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(),
-                 kept.variant, storage, normal_coordinates(material), out);
+    add_textures("slope", moments, stored.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(),
+                 stored.variant, storage, normal_coordinates(material), out);
   }
   if (has(effects, Effect::normal_layers)) {
     const Image layer = layer_map_of(material);
     note_steep_texels(layer, "layer", steepest, out);
-    add_textures("layer", slope_moment_chain(layer, no_variance, steepest), {}, kept.variant, storage,
+    add_textures("layer", slope_moment_chain(layer, no_variance, steepest), {}, stored.variant, storage,
                  layer_coordinates(material), out);
   }
   if (!in_moments) append(out.textures, bake_lobe_variance(material, storage, effects).textures);

@@ -58,7 +58,7 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 enum class SlopeVariant { full, scalar };
 
 /// The moments that a method stores. `mean_normal`: also the mean of the unit normals, not renormalised.
-struct KeptSlopes {
+struct StoredSlopes {
   SlopeVariant variant = SlopeVariant::full;
   bool mean_normal = false;
 };
@@ -71,6 +71,6 @@ struct KeptSlopes {
 /// A note counts the texels that are steeper than `steepest`. Throws Error (usage) if roughness=moments is combined
 /// with maps of different sizes or coordinates.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
-                                      const KeptSlopes& kept);
+                                      const StoredSlopes& stored);
 
 }  // namespace footprint

@@ -54,7 +54,7 @@ TEST(SlopeMoments, TopOfTheChainIsTheMeanOverAllTexels) {
   }
 }
 
-// Hard case 25: a normal of no length leaves the mean of the others, and one that is not finite likewise.
+// Hard case 25: a normal of no length leaves the mean of the others, and so does one that is not finite.
 TEST(SlopeMoments, InvalidNormalsDoNotCount) {
   for (const float broken : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
     Image normals = random_normals(4, 4, 0.6F, 2);
@@ -68,7 +68,7 @@ TEST(SlopeMoments, InvalidNormalsDoNotCount) {
   }
 }
 
-// Hard case 28: the horizon and what lies below it have the steepest slope.
+// Hard case 28: the horizon and directions below it have the steepest slope.
 TEST(SlopeMoments, HorizontalNormalsHaveAFiniteSlope) {
   EXPECT_EQ(slope_of({1, 0, 0}), glm::dvec2(-steepest_slope, 0));
   EXPECT_LE(glm::length(slope_of(glm::normalize(glm::dvec3(1, 1, -3)))), steepest_slope);
@@ -141,9 +141,9 @@ TEST(SlopeMoments, CancellationStaysWithinTheGoldenErrors) {
       const std::vector<Image> chain = slope_moment_chain(normals, no_variance);
       const PrefilteredTexture stored = make_texture("moments", {chain.back()}, g.storage, {});
       const glm::dmat2 recovered = covariance(moments_at(decode_level(stored, 0)));
-      const glm::dmat2 truth = exact.second - glm::outerProduct(exact.mean, exact.mean);
+      const glm::dmat2 expected = exact.second - glm::outerProduct(exact.mean, exact.mean);
       EXPECT_GE(glm::determinant(recovered), -1e-12);
-      errors.push_back(std::abs((recovered[0][0] + recovered[1][1]) / (truth[0][0] + truth[1][1]) - 1.0));
+      errors.push_back(std::abs((recovered[0][0] + recovered[1][1]) / (expected[0][0] + expected[1][1]) - 1.0));
     }
     std::ranges::sort(errors);
     EXPECT_LE(errors[200], 1.1 * g.median) << g.mean << ", " << g.deviation;

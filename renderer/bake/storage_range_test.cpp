@@ -1,4 +1,4 @@
-// The note stands where a lobe is too narrow for what a method stores, and nowhere else.
+// The note appears if a lobe is too narrow for what a method stores, and only then.
 #include "renderer/bake/baked_method.hpp"
 
 #include <gtest/gtest.h>

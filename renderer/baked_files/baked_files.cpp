@@ -50,16 +50,14 @@ Image fitting(const std::vector<Image>& chain, int width, int height) {
 }
 
 // PNG has no two channels that every reader takes for two numbers.
-bool is_held_by_png(const PrefilteredTexture& texture) {
-  return texture.storage == Storage::unorm8 && texture.channels != 2;
-}
+bool fits_png(const PrefilteredTexture& texture) { return texture.storage == Storage::unorm8 && texture.channels != 2; }
 
 TextureFiles files_of(const PrefilteredTexture& texture, const std::string& folder) {
   TextureFiles files{.exr = {}, .ktx2 = fmt::format("{}/{}.ktx2", folder, texture.name), .png = {}};
   for (int layer = 0; layer < std::max(texture.layers, 1); ++layer) {
     const std::string part = texture.layers > 0 ? fmt::format(".layer{}", layer) : std::string();
     files.exr.push_back(fmt::format("{}/{}{}.exr", folder, texture.name, part));
-    for (std::size_t level = 0; is_held_by_png(texture) && level < texture.levels.size(); ++level)
+    for (std::size_t level = 0; fits_png(texture) && level < texture.levels.size(); ++level)
       files.png.push_back(fmt::format("{}/{}{}.mip{}.png", folder, texture.name, part, level));
   }
   return files;

@@ -41,12 +41,12 @@ Image without_weight(const Image& normals) {
   return out;
 }
 
-Prefiltered lean_of(const Image& normals, const KeptSlopes& kept = {}) {
+Prefiltered lean_of(const Image& normals, const StoredSlopes& stored = {}) {
   const Material material = square_scene(normals, {}).materials.front();
   const Options options({float_storage_option(), slope_roughness_option(), steepest_slope_option()}, {}, "lean");
   EffectSet effects;
   effects.set(static_cast<std::size_t>(Effect::normal_variation));
-  return bake_slopes(material, options, effects, kept);
+  return bake_slopes(material, options, effects, stored);
 }
 
 void expect_alike(const std::vector<Image>& a, const std::vector<Image>& b) {
@@ -81,9 +81,9 @@ TEST(Bumpslopes, OfOpenImageIOBecomeLeansMaps) {
   }
 }
 
-// The mean normal lies behind the mixed moment, and is nothing that the layout has.
+// The mean normal is behind the mixed moment, and is not part of the layout.
 TEST(Bumpslopes, LeaveTheMeanNormal) {
-  const KeptSlopes with_normal{.variant = SlopeVariant::full, .mean_normal = true};
+  const StoredSlopes with_normal{.variant = SlopeVariant::full, .mean_normal = true};
   const Prefiltered own = lean_of(random_normals(16, 16, 0.5F, 1), with_normal);
   const Prefiltered other = lean_of(random_normals(16, 16, 0.5F, 2), with_normal);
   Prefiltered taken = own;

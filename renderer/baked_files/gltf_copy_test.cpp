@@ -60,7 +60,7 @@ ReplacedMaps smaller_maps(bool metallic_in_map) {
 
 Material copied_material(const fs::path& source, const ReplacedMaps& maps, const fs::path& folder) {
   const std::string name = write_gltf_copy(source, std::span(&maps, 1), folder);
-  fs::remove(source);  // the copy stands alone
+  fs::remove(source);  // the copy does not need it
   return load_gltf(folder / name).materials.at(0);
 }
 

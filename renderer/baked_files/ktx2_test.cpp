@@ -59,7 +59,7 @@ TEST(Ktx2, NamesVulkansFormats) {
 TEST(Ktx2, DescribesItsTexels) {
   const Ktx2File bytes = read_ktx2(ktx2_bytes(make_texture("map", counted_chain(4, 4, 4), Storage::unorm8, {})));
   EXPECT_EQ(bytes.type_size, 1U);
-  // KDFS 1.3: 92 bytes, RGBSDA, linear, one byte a channel from bit 0 on, alpha as channel 15, 0 to 255.
+  // KDFS 1.3: 92 bytes, RGBSDA, linear, one byte per channel from bit 0 on, alpha as channel 15, 0 to 255.
   EXPECT_EQ(bytes.descriptor, (std::vector<std::uint32_t>{92,
                                                           0,
                                                           88U << 16U | 2,
@@ -101,7 +101,7 @@ TEST(Ktx2, TakesTheFinestLevelAlone) {
   EXPECT_EQ(read_ktx2(ktx2_bytes(texture)).levels.size(), 1U);
 }
 
-// The reader tells a wrong file from a right one, else the tests above would say nothing.
+// The reader rejects wrong files, so that the tests above can fail.
 TEST(Ktx2, TheReaderRefusesWrongFiles) {
   const std::vector<std::uint8_t> right = ktx2_bytes(make_texture("map", counted_chain(6, 6, 3), Storage::fp32, {}));
   ASSERT_NO_THROW((void)read_ktx2(right));

@@ -154,7 +154,7 @@ Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFil
 Json options_json(const Options& options) {
   Json all = Json::object();
   for (const auto& [name, value] : options.all())
-    std::visit([&, key = name](const auto& held) { all[key] = held; }, value);
+    std::visit([&, key = name](const auto& content) { all[key] = content; }, value);
   return all;
 }
 

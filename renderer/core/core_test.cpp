@@ -123,7 +123,7 @@ std::vector<OptionSpec> table() {
 
 Options given(const std::map<std::string, std::string>& values) { return {table(), values, "toksvig"}; }
 
-TEST(OptionSpec, HoldsItsRangeOrItsChoices) {
+TEST(OptionSpec, ChecksItsRangeOrItsChoices) {
   const OptionSpec number = number_option("scale", 0.5, -1, 2.5, "a factor");
   EXPECT_EQ(number.name, "scale");
   EXPECT_EQ(std::get<double>(number.default_value), 0.5);

@@ -44,18 +44,18 @@ std::optional<ByteSource> without_key(const ByteSource& bytes, const std::string
   return before;
 }
 
-struct KeptFile {
+struct CachedFile {
   fs::path path;
   std::uintmax_t bytes;
   fs::file_time_type used;
 };
 
-std::vector<KeptFile> kept_files(const fs::path& folder) {
-  std::vector<KeptFile> files;
+std::vector<CachedFile> cached_files(const fs::path& folder) {
+  std::vector<CachedFile> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     std::error_code gone;  // another process may remove it meanwhile
-    const KeptFile file{.path = entry.path(), .bytes = entry.file_size(gone), .used = entry.last_write_time(gone)};
+    const CachedFile file{.path = entry.path(), .bytes = entry.file_size(gone), .used = entry.last_write_time(gone)};
     if (!gone && file.path.extension() == extension) files.push_back(file);
   }
   return files;
@@ -91,11 +91,11 @@ void DiskCache::store(const std::string& key, std::uint64_t bytes, const ByteWri
 }
 
 void DiskCache::make_room(std::uint64_t bytes) const {
-  std::vector<KeptFile> files = kept_files(folder_);
-  std::ranges::sort(files, {}, &KeptFile::used);
+  std::vector<CachedFile> files = cached_files(folder_);
+  std::ranges::sort(files, {}, &CachedFile::used);
   std::uint64_t total = bytes;
-  for (const KeptFile& file : files) total += file.bytes;
-  for (const KeptFile& file : files) {
+  for (const CachedFile& file : files) total += file.bytes;
+  for (const CachedFile& file : files) {
     if (total <= most_bytes_) return;
     std::error_code ignored;
     if (fs::remove(file.path, ignored)) total -= file.bytes;

@@ -1,5 +1,5 @@
-// Files kept between runs: what was kept comes back, the oldest go, and a folder that refuses costs no error. And the
-// bytes in them: what is damaged is not read.
+// Files stored between runs: they come back, the oldest are removed, and a folder without access causes no error.
+// Damaged bytes are not read.
 #include "renderer/core/disk_cache.hpp"
 
 #include <gtest/gtest.h>
@@ -37,16 +37,16 @@ class Variable {
 
 const std::vector<std::uint8_t> some_bytes{1, 2, 3, 0, 255};
 
-// What is kept there, whole; empty where nothing is.
+// The stored bytes; empty without an entry.
 std::vector<std::uint8_t> found(const DiskCache& cache, const std::string& key) {
-  const std::optional<ByteSource> kept = cache.find(key);
-  if (!kept) return {};
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(kept->size()));
-  EXPECT_TRUE(kept->read(0, bytes));
+  const std::optional<ByteSource> stored = cache.find(key);
+  if (!stored) return {};
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(stored->size()));
+  EXPECT_TRUE(stored->read(0, bytes));
   return bytes;
 }
 
-TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
+TEST(DiskCache, FindsWhatItStoredAndNothingElse) {
   const DiskCache cache(test::fresh_folder() / "cache");
   EXPECT_FALSE(cache.find("a"));
   cache.store("a", some_bytes);
@@ -94,7 +94,7 @@ TEST(DiskCache, TheLeastRecentlyUsedGoes) {
   EXPECT_TRUE(cache.find("third"));
 }
 
-TEST(DiskCache, WhatIsLargerThanTheFolderMayBeIsNotKept) {
+TEST(DiskCache, WhatIsLargerThanTheFolderMayBeIsNotStored) {
   const DiskCache cache(test::fresh_folder() / "cache", some_bytes.size() - 1);
   cache.store("a", some_bytes);
   EXPECT_FALSE(cache.find("a"));
@@ -107,14 +107,14 @@ TEST(DiskCache, WhatIsHandedOverInPiecesComesBackInPieces) {
     out(std::vector<std::uint8_t>{9});
   });
   EXPECT_EQ(found(cache, "a"), (std::vector<std::uint8_t>{7, 8, 9}));
-  const std::optional<ByteSource> kept = cache.find("a");
-  ASSERT_TRUE(kept);
+  const std::optional<ByteSource> stored = cache.find("a");
+  ASSERT_TRUE(stored);
   std::vector<std::uint8_t> piece(2);
-  EXPECT_TRUE(kept->read(1, piece));
+  EXPECT_TRUE(stored->read(1, piece));
   EXPECT_EQ(piece, (std::vector<std::uint8_t>{8, 9}));
-  EXPECT_FALSE(kept->read(2, piece)) << "the key behind the bytes is none of them";
+  EXPECT_FALSE(stored->read(2, piece)) << "the key behind the bytes is not one of them";
   cache.store("a", some_bytes);
-  EXPECT_TRUE(kept->read(0, piece)) << "replaced: what was opened stays";
+  EXPECT_TRUE(stored->read(0, piece)) << "replaced: what was opened stays";
   EXPECT_EQ(piece, (std::vector<std::uint8_t>{7, 8}));
 }
 

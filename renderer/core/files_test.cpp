@@ -370,7 +370,7 @@ TEST(OutputFolder, TrailingSlashesAndDotsNameTheSameFolder) {
   EXPECT_EQ(names_in(folder), (Names{"a", "a/x", "c", "c/x", "d", "d/x"}));
 }
 
-// The parent of a mount point lies on another disk, where nothing can be renamed from.
+// The parent of a mount point is on another disk, where nothing can be renamed from.
 TEST(OutputFolder, AMountPointIsFilledFromInside) {
   const fs::path folder = fresh_folder();
   if (::mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "mounting needs privileges";

@@ -29,7 +29,7 @@ class MemoryTest : public testing::Test {
   const fs::path root_ = test::fresh_folder();
 };
 
-TEST_F(MemoryTest, NothingToldIsNoLimit) { EXPECT_EQ(available_memory(root_), unlimited); }
+TEST_F(MemoryTest, AnUnknownLimitIsNone) { EXPECT_EQ(available_memory(root_), unlimited); }
 
 TEST_F(MemoryTest, ReadsAvailableNotFree) {
   file("proc/meminfo", "MemTotal:  8000 kB\nMemFree:  100 kB\nMemAvailable:    4000 kB\n");

@@ -74,13 +74,13 @@ struct Count {
 };
 
 template <class Predicate>
-Count count_materials(const Scene& scene, Predicate holds) {
-  return {static_cast<std::size_t>(std::ranges::count_if(scene.materials, holds)), scene.materials.size()};
+Count count_materials(const Scene& scene, Predicate fits) {
+  return {static_cast<std::size_t>(std::ranges::count_if(scene.materials, fits)), scene.materials.size()};
 }
 
 template <class Predicate>
-EffectDecision decide(Effect effect, const Scene& scene, Predicate holds, std::string_view on, std::string_view off) {
-  const Count count = count_materials(scene, holds);
+EffectDecision decide(Effect effect, const Scene& scene, Predicate fits, std::string_view on, std::string_view off) {
+  const Count count = count_materials(scene, fits);
   return {effect, count.holding > 0, count.holding > 0 ? fmt::format("{}: {}", count.text(), on) : std::string(off)};
 }
 
@@ -154,11 +154,11 @@ EffectDecision cast_shadow(const Scene& scene) {
   const Occluders occluders(scene);
   const std::vector<bool> casting = lights_casting_shadows(scene, occluders);
   const auto n = std::ranges::count(casting, true);
-  std::vector<std::string> kept;
-  if (n > 0) kept.push_back(fmt::format("{} of {} light{}", n, casting.size(), casting.size() == 1 ? "" : "s"));
-  if (surrounded && hides_surroundings(scene, occluders)) kept.emplace_back("the environment");
-  if (kept.empty()) return off("nothing stands between a surface and a light");
-  return {Effect::cast_shadow, true, fmt::format("{}: something stands before a surface", fmt::join(kept, " and "))};
+  std::vector<std::string> blocked;
+  if (n > 0) blocked.push_back(fmt::format("{} of {} light{}", n, casting.size(), casting.size() == 1 ? "" : "s"));
+  if (surrounded && hides_surroundings(scene, occluders)) blocked.emplace_back("the environment");
+  if (blocked.empty()) return off("nothing is between a surface and a light");
+  return {Effect::cast_shadow, true, fmt::format("{}: something is before a surface", fmt::join(blocked, " and "))};
 }
 
 std::vector<EffectDecision> base_brdf_effects(const Scene& scene) {
@@ -216,7 +216,7 @@ std::vector<EffectDecision> coat_effects(const Scene& scene) {
           decide(Effect::coat_width_variation, scene, width_varies, "a map of the coat's roughness that varies",
                  "the coat's roughness is constant over each material"),
           decide(Effect::coat_normal_variation, scene, rough, "a normal map of the coat that is not flat",
-                 "every coat lies on the mesh's own normals")};
+                 "every coat has the mesh's own normals")};
 }
 
 std::vector<EffectDecision> coverage_effects(const Scene& scene) {

@@ -170,12 +170,12 @@ Scene two_squares(float height) {
   return scene;
 }
 
-TEST(Effects, ShadowsAreCastWhereSomethingStandsInTheWay) {
+TEST(Effects, ShadowsAreCastIfSomethingIsInTheWay) {
   Scene scene = two_squares(1.0F);
-  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "1 of 2 lights: something stands before a surface");
+  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "1 of 2 lights: something is before a surface");
   EXPECT_TRUE(on(scene, Effect::cast_shadow));
   scene.meshes.pop_back();
-  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "nothing stands between a surface and a light");
+  EXPECT_EQ(decision(scene, Effect::cast_shadow).reason, "nothing is between a surface and a light");
   EXPECT_FALSE(on(scene, Effect::cast_shadow));
 }
 

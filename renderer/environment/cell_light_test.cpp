@@ -36,8 +36,8 @@ TEST(DenseLights, KeepTheLightOfASky) {
   const Environment sky = sky_environment({});
   glm::dvec3 sum(0.0);
   for (const DenseLight& light : dense_lights(sky)) sum += light.irradiance;
-  const glm::dvec3 truth = 4.0 * pi * mean_radiance(*sky.radiance);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], truth[c], 1e-4 * truth[c]);
+  const glm::dvec3 expected = 4.0 * pi * mean_radiance(*sky.radiance);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected[c], 1e-4 * expected[c]);
 }
 
 TEST(DenseLights, ALampShinesFromItsCell) {

@@ -148,9 +148,9 @@ TEST(RadianceStack, MapsAreMeansOverLobes) {
       double error = 0;
       double largest = 0;
       for (const glm::dvec3& d : random_directions(12)) {
-        const glm::dvec3 truth = vmf_mean(environment, d, kappa);
-        error = std::max(error, glm::length(looked_up(layer[level], d) - truth));
-        largest = std::max(largest, glm::length(truth));
+        const glm::dvec3 expected = vmf_mean(environment, d, kappa);
+        error = std::max(error, glm::length(looked_up(layer[level], d) - expected));
+        largest = std::max(largest, glm::length(expected));
       }
       EXPECT_LT(error, 0.04 * largest) << "kappa " << kappa;
       kappa /= 2.0;

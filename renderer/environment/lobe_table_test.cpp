@@ -71,13 +71,13 @@ TEST(LobeTable, HasWhatTheSumOverNormalsSays) {
       for (const int y : {6, 15, 23, rows - 1}) {
         const double alpha = lobe_width(y, rows);
         const double base = geometry == no_geometry ? -1.0 : alpha * geometry / smith_steps;
-        const Reflected truth = sum_over_normals(lobe_view(x, columns), alpha, base);
+        const Reflected expected = sum_over_normals(lobe_view(x, columns), alpha, base);
         const Reflected tabulated = sum_of_parts(table, static_cast<std::size_t>(geometry), x, y);
-        const double most = 0.015 * (truth.rest + truth.schlick);
-        EXPECT_NEAR(tabulated.rest, truth.rest, most) << geometry << ", " << x << ", " << y;
-        EXPECT_NEAR(tabulated.schlick, truth.schlick, most) << geometry << ", " << x << ", " << y;
+        const double most = 0.015 * (expected.rest + expected.schlick);
+        EXPECT_NEAR(tabulated.rest, expected.rest, most) << geometry << ", " << x << ", " << y;
+        EXPECT_NEAR(tabulated.schlick, expected.schlick, most) << geometry << ", " << x << ", " << y;
         if (y > 15) continue;  // wider lobes are near a hemisphere's sharpness, below which the table has none
-        EXPECT_LT(glm::distance(tabulated.direction, truth.direction), 2.0 * most)
+        EXPECT_LT(glm::distance(tabulated.direction, expected.direction), 2.0 * most)
             << geometry << ", " << x << ", " << y;
       }
     }

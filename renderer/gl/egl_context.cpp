@@ -84,7 +84,7 @@ class Display {
  public:
   Display(EGLenum kind, void* native, const std::string& platform)
       : display_(eglGetPlatformDisplay(kind, native, nullptr)) {
-    if (display_ == EGL_NO_DISPLAY) fail(platform, fmt::format("there is no such display ({})", egl_error_name()));
+    if (display_ == EGL_NO_DISPLAY) fail(platform, fmt::format("no such display ({})", egl_error_name()));
     DisplayUsers::instance().add(display_, platform);
   }
   Display(const Display&) = delete;

@@ -189,15 +189,16 @@ TEST(Backends, DrawTheSameImage) {
   }
 }
 
-// OSMesa of Mesa 22.3 crashes where the variable names a driver that needs a device; nobody who sets it means OSMesa.
+// OSMesa of Mesa 22.3 crashes where the variable names a driver that needs a device; a user who sets it does not mean
+// OSMesa.
 TEST(Backends, OsMesaKeepsToItsOwnDriver) {
   if (const auto reason = why_absent(Backend::osmesa); !reason.empty()) GTEST_SKIP() << reason;
   const char* before = std::getenv("GALLIUM_DRIVER");
-  const std::optional<std::string> kept = before == nullptr ? std::nullopt : std::optional<std::string>(before);
+  const std::optional<std::string> original = before == nullptr ? std::nullopt : std::optional<std::string>(before);
   setenv("GALLIUM_DRIVER", "zink", 1);
   EXPECT_TRUE(Context({.backend = Backend::osmesa}).info().software);
   EXPECT_STREQ(std::getenv("GALLIUM_DRIVER"), "zink") << "it is hidden for others too";
-  kept ? setenv("GALLIUM_DRIVER", kept->c_str(), 1) : unsetenv("GALLIUM_DRIVER");
+  original ? setenv("GALLIUM_DRIVER", original->c_str(), 1) : unsetenv("GALLIUM_DRIVER");
 }
 
 TEST(SoftwareRenderers, AreKnownByMoreNamesThanOne) {

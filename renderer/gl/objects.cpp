@@ -13,8 +13,8 @@
 namespace footprint::gl {
 namespace {
 
-/// Makes an allocation and gives its GL error. The context's debug output is silent meanwhile: a size that the machine
-/// cannot hold is reported once, by the caller, who knows what it was for.
+/// Makes an allocation and gives its GL error. The context's debug output is silent meanwhile: a size that exceeds the
+/// machine is reported once, by the caller, who knows what it was for.
 template <class Allocation>
 GLenum error_of(const Allocation& allocate) {
   // One of a lost context stays for ever.
@@ -146,7 +146,7 @@ Texture::Texture(GLenum internal_format, int width, int height, int levels, int 
   api().GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
   if (layers < 0 || layers > limit) {
     throw Error(ErrorKind::machine, "texture", fmt::format("{}: an array has at most {} layers", what, limit),
-                "ask the method for fewer lobes");
+                "give the method fewer lobes");
   }
   GLuint name = 0;
   api().CreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);

@@ -83,7 +83,7 @@ TEST_F(Objects, AMovedFromBufferLeavesTheNameAlone) {
   EXPECT_FALSE(api().IsBuffer(name));
 }
 
-TEST_F(Objects, ABufferHoldsItsBytesAndAnEmptyOneSixteenZeros) {
+TEST_F(Objects, ABufferHasItsBytesAndAnEmptyOneSixteenZeros) {
   const std::array<std::uint32_t, 3> numbers = {1, 0xFFFFFFFFu, 42};
   const Buffer buffer(std::as_bytes(std::span(numbers)));
   std::array<std::uint32_t, 3> back{};
@@ -183,7 +183,7 @@ TEST_F(Objects, TheDepthBufferHidesWhatIsBehind) {
   api().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   api().Enable(GL_DEPTH_TEST);
   api().UseProgram(program.name());
-  // The second is behind the first by less than a 24-bit buffer tells apart; depth runs from 0 to 1 in clip space too.
+  // The second is behind the first by less than a 24-bit buffer resolves; depth runs from 0 to 1 in clip space too.
   for (const float step : {0.0f, 1.0f}) {
     api().Uniform1f(program.uniform("depth"), step * 0x1p-25f);
     api().Uniform4f(program.uniform("wanted"), 1.0f + step, 0.0f, 0.0f, 1.0f);
@@ -267,7 +267,7 @@ void main() { squares[gl_GlobalInvocationID.x] = gl_GlobalInvocationID.x * gl_Gl
   EXPECT_EQ(squares, (std::array<std::uint32_t, 8>{0, 1, 4, 9, 16, 25, 36, 49}));
 }
 
-TEST_F(Objects, ATrilinearSamplerWrapsAsAsked) {
+TEST_F(Objects, ATrilinearSamplerWrapsAsRequested) {
   const Sampler sampler = trilinear_sampler(GL_REPEAT, GL_CLAMP_TO_EDGE);
   const auto parameter = [&](GLenum name) {
     GLint value = 0;

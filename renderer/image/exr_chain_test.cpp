@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Halves hold every value.
+// Halves represent every value.
 std::vector<Image> uneven_chain(int width, int height, int channels) {
   Image finest(width, height, channels);
   for (std::size_t i = 0; i < finest.texels.size(); ++i) finest.texels[i] = static_cast<float>(i % 64) - 20.0F;
@@ -68,7 +68,7 @@ TEST(ExrChain, IsAMipMappedFileToOpenExr) {
   }
 }
 
-TEST(ExrChain, HoldsHalves) {
+TEST(ExrChain, StoresHalves) {
   const fs::path file = test::fresh_folder() / "map.exr";
   const std::vector<Image> chain = uneven_chain(8, 8, 1);
   write_exr_chain(file, {.levels = chain, .channels = {"Y"}}, ExrTexel::half);

@@ -66,7 +66,7 @@ TEST(FalseColor, TheLegendShowsTheScaleOverItsLabels) {
   EXPECT_FALSE(any_white(legend, 60, 180, 16, 32));
 }
 
-TEST(LabelledStrip, HoldsThePicturesAndTheirCaptions) {
+TEST(LabelledStrip, HasThePicturesAndTheirCaptions) {
   const Image strip = labelled_strip({framed(100, 80, 3, 0.5F), framed(120, 80, 1, 0.25F), framed(100, 80, 4, 0.5F)},
                                      {"one", "two", "three"});
   ASSERT_EQ(strip.channels, 3);

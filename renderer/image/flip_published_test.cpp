@@ -1,7 +1,7 @@
 // FLIP against figures that NVIDIA's own program gave, on pictures that a few lines make. Each is recorded in the tests
 // of another project, named beside it with path and commit; pictures and figures are theirs, no line of code is.
 //
-// That program sums in single precision and Footprint in double: where features tell the pictures apart the two agree
+// That program sums in single precision and Footprint in double: where features separate the images the two agree
 // to 1e-6. Where there are none, weights that cancel leave NVIDIA's sums some FLT_EPSILON of the greys, and FLIP takes
 // the square root of it: its figure is then larger, by up to 1e-4, and never smaller. How much depends on the order of
 // the sums, and so on its compiler.
@@ -70,7 +70,7 @@ double grey_of(const Srgb& srgb) {
 }
 
 // PageMastr/HeliosEngine, engine/render/tests/test_flip.cpp, commit 574d84d5: flip-evaluator 1.7, LDR, at its default
-// of 67.02 pixels a degree, 64 x 48.
+// of 67.02 pixels per degree, 64 x 48.
 
 Bytes helios_noise(int x, int y) { return {(37 * x + 11 * y) % 256, (x * x + 3 * y) % 256, (x ^ y) * 4 % 256}; }
 
@@ -215,7 +215,7 @@ TEST(FlipPublished, OfPlainColours) {
 }
 
 // DoeringChristian/cairn-plot, ui/src/plots/image/webgpu/engine/kernels/__fixtures__/flip-ldr.json, commit 715edd3d:
-// flip-evaluator 1.7, LDR, at 67 pixels a degree.
+// flip-evaluator 1.7, LDR, at 67 pixels per degree.
 
 constexpr double cairn_pixels_per_degree = 67.0;
 
@@ -223,8 +223,8 @@ Image cairn_edge(int at) {
   return shown_srgb(10, 10, [at](int x, int) { return x >= at ? Srgb{1, 1, 1} : Srgb{}; });
 }
 
-// Both pictures have column 5 next to their edge: no features tell them apart there. Column 9 is so far from both edges
-// that what does is of the size of the rounding. They are a tenth each of the mean.
+// Both pictures have column 5 next to their edge: no features separate them there. Column 9 is so far from both edges
+// that their difference is of the size of the rounding. They are a tenth each of the mean.
 TEST(FlipPublished, OfAnEdgeThatMoves) {
   const Image map = ldr_flip(cairn_edge(6), cairn_edge(5), cairn_pixels_per_degree);
   const std::vector<double> published{0.078328, 0.357251, 0.693378, 0.773028, 0.538381, 0.497560, 0.247881, 0.094392};
@@ -266,7 +266,7 @@ TEST(FlipPublished, OfRedAndBlue) {
 }
 
 // AcademySoftwareFoundation/OpenImageIO, testsuite/flip/run.py, commit 74268f16, and ref/out.txt, commit 66c3c5ea: its
-// own program after NVIDIA's, of radiance as halves hold it; four digits are printed, of exposures three.
+// own program after NVIDIA's, of radiance in halves; four digits are printed, of exposures three.
 TEST(FlipPublished, OfPlainRadiance) {
   constexpr double digits = 5e-5;
   constexpr float dark = 0.099975586F, light = 0.89990234F;

@@ -271,7 +271,7 @@ Image read_image(const std::filesystem::path& file, Transfer transfer, int max_s
   std::error_code ignored;  // opening the file will fail
   const std::filesystem::file_status status = std::filesystem::status(file, ignored);
   if (!std::filesystem::exists(status)) {
-    throw Error(ErrorKind::usage, name, "there is no such file", "check the path");
+    throw Error(ErrorKind::usage, name, "no such file", "check the path");
   }
   if (!std::filesystem::is_regular_file(status)) throw unreadable(name, "is not a file");
   OIIO::Filesystem::IOFile source(name, IOProxy::Read);
@@ -341,7 +341,7 @@ void write_exr_chain(const std::filesystem::path& file, const ExrChain& chain, E
 
 ExrChain read_exr_chain(const std::filesystem::path& file, int most_channels) {
   const std::string name = file.string();
-  if (!std::filesystem::exists(file)) throw Error(ErrorKind::usage, name, "there is no such file", "check the path");
+  if (!std::filesystem::exists(file)) throw Error(ErrorKind::usage, name, "no such file", "check the path");
   if (!is_exr(file)) throw Error(ErrorKind::usage, name, "is not an EXR", "give a whole EXR");
   OIIO::Filesystem::IOFile source(name, OIIO::Filesystem::IOProxy::Read);
   OIIO::Filesystem::IOProxy* proxy = &source;

@@ -68,7 +68,7 @@ TEST(ReadImage, PaletteTransparencyBecomesAlpha) {
   expect_texels(read_image(file, "palette", Transfer::linear), {1, 0, 0, 0.2, 0, 1, 0, 1});
 }
 
-TEST(ReadImage, SixteenBitsAreKept) {
+TEST(ReadImage, SixteenBitsStay) {
   const auto file = test::png_file(2, 1, 16, PngColor::gray, "\0\x80\x01\xff\xff"s);
   const Image image = read_image(file, "gray16", Transfer::linear);
   ASSERT_EQ(image.channels, 1);
@@ -105,7 +105,7 @@ TEST(ReadImage, SrgbLeavesFloatFilesAlone) {
   EXPECT_EQ(read_image(file, Transfer::srgb), gradient(3));
 }
 
-TEST(ReadImage, JpegToldByItsBytesNotItsName) {
+TEST(ReadImage, JpegIsRecognisedByItsBytesNotItsName) {
   const fs::path folder = fresh_folder();
   const std::vector<std::uint8_t> gray(std::size_t{16} * 16 * 3, 100);
   const auto output = OIIO::ImageOutput::create("jpeg");

@@ -239,8 +239,8 @@ TEST(Metrics, PicturesOfAnotherSizeAreRefused) {
 }
 
 TEST(Flicker, HandComputedFigures) {
-  // The picture jumps by 0.5 and by 0 where the reference moves by 0.2 and by 0, in red alone; the third pixel is no
-  // object pixel in the frame before.
+  // The picture jumps by 0.5 and by 0 where the reference moves by 0.2 and by 0, in red alone; the third pixel is not
+  // an object pixel in the frame before.
   const Image before = pixels({{0.1F, 0, 0, 1}, {0.3F, 0, 0, 1}, {0, 0, 0, 1}});
   const Image picture = pixels({{0.6F, 0, 0, 1}, {0.3F, 0, 0, 1}, {1, 1, 1, 1}});
   const Image reference_before = pixels({{0.2F, 0, 0, 1}, {0.9F, 0, 0, 1}, {0, 0, 0, 0.5F}});
@@ -295,7 +295,7 @@ TEST(Flicker, OverAMaskCountsItsPixelsAlone) {
             std::string::npos);
 }
 
-TEST(HighlightEnergy, IsWhatLiesAboveTheLevelUnclamped) {
+TEST(HighlightEnergy, IsThePartAboveTheLevelUnclamped) {
   const Image reference = pixels({{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 0.5F}});
   const Image picture = pixels({{4, 4, 4, 1}, {0.5F, 0.5F, 0.5F, 1}, {9, 9, 9, 1}});
   EXPECT_NEAR(*highlight_energy(picture, reference, 1.0F), (4.0 - highlight_level) / 2.0, 1e-6);

@@ -33,7 +33,7 @@ double mean_of(const Image& image, int channel) {
   return sum / static_cast<double>(image.texel_count());
 }
 
-// How much of [a0, a1) lies in [b0, b1).
+// The part of [a0, a1) in [b0, b1).
 double overlap(double a0, double a1, double b0, double b1) {
   return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
 }
@@ -153,7 +153,7 @@ TEST(Mipmap, AConstantStaysExactlyConstant) {
   }
 }
 
-// A zero-length normal has weight 0: the mean is that of the other fifteen, whatever the invalid texel holds.
+// A zero-length normal has weight 0: the mean is that of the other fifteen, for any invalid texel.
 TEST(Mipmap, ATexelWithoutWeightLeavesTheMeanUntouched) {
   for (const float garbage : {0.0F, 1e30F, std::numeric_limits<float>::quiet_NaN()}) {
     Image image = noise(4, 4, 4, 3);
@@ -169,7 +169,7 @@ TEST(Mipmap, ATexelWithoutWeightLeavesTheMeanUntouched) {
   }
 }
 
-TEST(Mipmap, WithoutAnyWeightThePlainMeanStandsIn) {
+TEST(Mipmap, WithoutAnyWeightThePlainMeanReplacesIt) {
   Image image(3, 1, 2);
   image.texels = {1, 0, 2, 0, 6, 0};
   const Image top = weighted_mip_chain(image).back();

@@ -10,7 +10,7 @@
 namespace footprint {
 namespace {
 
-// Channel c holds as many different values as counts[c], one after the other.
+// Channel c has as many different values as counts[c], one after the other.
 Image counting(int width, int height, std::initializer_list<int> counts) {
   Image image(width, height, static_cast<int>(counts.size()));
   std::size_t c = 0;

@@ -74,7 +74,7 @@ TEST(Lobe, HasTheEnergyOfItsClosedForm) {
   }
 }
 
-TEST(Lobe, LosesWhatLiesBelowTheHorizon) {
+TEST(Lobe, LosesThePartBelowTheHorizon) {
   for (const Lobe& lobe : lobes) {
     if (lobe.distribution == vmf && lobe.parameter < 1.0) continue;  // also shines on the far side
     EXPECT_NEAR(lobe_energy(lobe, 0.0), 0.5 * lobe_energy(lobe, 1.0), 1e-3) << lobe_text(lobe);
@@ -116,17 +116,17 @@ TEST(Lobe, RefusesWhatNamesNone) {
 
 // What a map of lobe parameters keeps of them: it is stored as roughness.
 TEST(Lobe, RoughnessKeepsTheLobeParameter) {
-  const auto kept = [](NormalDistribution distribution, float parameter) {
+  const auto round_trip = [](NormalDistribution distribution, float parameter) {
     const float r = lobe_roughness({distribution, parameter});
     return lobe_from_alpha(distribution, r * r).parameter;
   };
   for (float lobe = 1e-3F; lobe <= 1e6F; lobe *= 1.37F) {
-    EXPECT_NEAR(kept(vmf, lobe), lobe, 1e-6F * lobe);
-    EXPECT_NEAR(kept(blinn_phong, lobe), lobe, 1e-6F * std::max(lobe, 1.0F));
+    EXPECT_NEAR(round_trip(vmf, lobe), lobe, 1e-6F * lobe);
+    EXPECT_NEAR(round_trip(blinn_phong, lobe), lobe, 1e-6F * std::max(lobe, 1.0F));
   }
   for (float alpha = 1e-3F; alpha <= 1.0F; alpha *= 1.37F) {
-    EXPECT_NEAR(kept(ggx, alpha), alpha, 1e-6F * alpha);
-    EXPECT_NEAR(kept(beckmann, alpha), alpha, 1e-6F * alpha);
+    EXPECT_NEAR(round_trip(ggx, alpha), alpha, 1e-6F * alpha);
+    EXPECT_NEAR(round_trip(beckmann, alpha), alpha, 1e-6F * alpha);
   }
 }
 

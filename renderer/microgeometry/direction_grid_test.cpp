@@ -65,9 +65,9 @@ TEST(DirectionGrid, InterpolatesBetweenCells) {
       mean += around.weights.at(k) * (glm::dvec2(around.cells.at(k) % side, around.cells.at(k) / side) + 0.5);
       sum += around.weights.at(k);
     }
-    const glm::dvec2 held = glm::clamp(point * 5.0, 0.5, 4.5);
-    EXPECT_NEAR(mean.x, held.x, 1e-9);
-    EXPECT_NEAR(mean.y, held.y, 1e-9);
+    const glm::dvec2 clamped = glm::clamp(point * 5.0, 0.5, 4.5);
+    EXPECT_NEAR(mean.x, clamped.x, 1e-9);
+    EXPECT_NEAR(mean.y, clamped.y, 1e-9);
     EXPECT_NEAR(sum, 1.0, 1e-12);
   }
 }

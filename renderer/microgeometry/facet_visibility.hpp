@@ -15,7 +15,7 @@ namespace footprint {
 /// Facets of equal area, each on a triangle of the patch.
 struct FacetSamples {
   std::vector<glm::vec3> positions;
-  std::vector<std::uint32_t> triangles;  ///< what each lies on
+  std::vector<std::uint32_t> triangles;  ///< the triangle of each
   double facet_area = 0.0;               ///< of each, in the patch's units
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }

@@ -31,9 +31,9 @@ Agreement against_rays(const Patch& patch, std::size_t count, int side, int copi
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double facing = glm::dot(facet_plane(patch, samples.triangles[i]).normal, directions[d]);
       if (std::abs(facing) < 1e-2) continue;  // rounding decides whether such a ray hits its own triangle
-      const bool truth = facing > 0.0 && tiling.sees(samples.positions[i], directions[d]);
-      out.different += truth != visibility.visible(d, i);
-      out.visible += truth;
+      const bool expected = facing > 0.0 && tiling.sees(samples.positions[i], directions[d]);
+      out.different += expected != visibility.visible(d, i);
+      out.visible += expected;
       ++out.all;
     }
   }
@@ -62,8 +62,8 @@ TEST(FacetVisibility, FollowsRaysThroughManyPeriods) {
   EXPECT_LT(static_cast<double>(found.different), 2e-4 * static_cast<double>(found.all)) << found.different;
 }
 
-// A floor under squares half as wide as the period: hidden is what a square, moved along the ray, lies over. As high up
-// and seen from as low as can be, rays reach several hundred periods far.
+// A floor under squares half as wide as the period: a point is hidden if a square, moved along the ray, covers it. As
+// high up and seen from as low as can be, rays reach several hundred periods far.
 TEST(FacetVisibility, FollowsRaysThroughHundredsOfPeriods) {
   constexpr float floor = 15.0F, roof = 16.0F;
   Patch patch;
@@ -125,7 +125,7 @@ TEST(FacetVisibility, VisibleAreaOfAHeightFieldIsItsProjection) {
   }
 }
 
-TEST(FacetVisibility, StopsWhenAsked) {
+TEST(FacetVisibility, StopsOnRequest) {
   const Patch patch = make_patch(find_patch_kind("flat"), {});
   const FacetSamples samples = sample_facets(patch, 10, 1);
   const Progress stop = [](std::string_view, double) { throw Error(ErrorKind::interrupted, "test", "stopped"); };

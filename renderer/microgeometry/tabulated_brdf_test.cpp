@@ -23,7 +23,7 @@ std::pair<glm::dvec3, glm::dvec3> directions_of(const glm::dvec3& angles) {
   return {tilt * glm::dvec3(sine, 0, cosine), tilt * glm::dvec3(-sine, 0, cosine)};
 }
 
-// Each cell holds its own centre's angles, which come back from directions in any frame.
+// Each cell stores its own centre's angles, which come back from directions in any frame.
 TEST(TabulatedBrdf, FindsTheCellOfTwoDirections) {
   const TabulatedBrdf table = tabulate([](const glm::dvec3& angles) { return glm::vec3(angles); });
   ASSERT_EQ(table.values.size(), TabulatedBrdf::cell_count);

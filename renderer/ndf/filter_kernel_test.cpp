@@ -39,7 +39,7 @@ FootprintFilter filter_of(const std::string& text) { return parse_footprint_filt
 
 double sum_of(const Image& kernel) { return std::accumulate(kernel.texels.begin(), kernel.texels.end(), 0.0); }
 
-// Half of what lies elsewhere: 0 equal, 1 nowhere together.
+// Half of the difference: 0 equal, 1 without overlap.
 double apart(const Image& a, const Image& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.texels.size(); ++i) sum += std::abs(a.texels[i] - b.texels[i]);

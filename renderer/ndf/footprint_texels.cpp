@@ -143,15 +143,15 @@ void unite_equal(std::vector<WeightedFacet>& facets) {
   tbb::parallel_sort(facets.begin(), facets.end(), [](const WeightedFacet& a, const WeightedFacet& b) {
     return std::tuple_cat(order_of(a), std::tie(a.share)) < std::tuple_cat(order_of(b), std::tie(b.share));
   });
-  std::size_t kept = 0;
+  std::size_t last = 0;
   for (std::size_t i = 1; i < facets.size(); ++i) {
-    if (order_of(facets[i]) == order_of(facets[kept])) {
-      facets[kept].share += facets[i].share;
+    if (order_of(facets[i]) == order_of(facets[last])) {
+      facets[last].share += facets[i].share;
     } else {
-      facets[++kept] = facets[i];
+      facets[++last] = facets[i];
     }
   }
-  facets.resize(std::min(kept + 1, facets.size()));
+  facets.resize(std::min(last + 1, facets.size()));
 }
 
 // Replaces each facet by one per lobe of the material, about the axis of the lobe.

@@ -19,7 +19,7 @@ class ReferenceNdf {
   ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets);
 
   /// The density at each direction; 0 for directions of length 0. Skips facets whose lobe is below `lobe_cutoff` of its
-  /// peak; the others have an error below 2e-9 of the peak. Throws whatever `progress` throws.
+  /// peak; the others have an error below 2e-9 of the peak. Exceptions of `progress` pass through.
   [[nodiscard]] std::vector<double> densities(std::span<const glm::vec3> directions, const Progress& progress) const;
 
   /// The integral over the upper hemisphere, summed from the integrals of the lobes (`lobe_energy`). It is 1 minus the

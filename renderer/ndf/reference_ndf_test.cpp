@@ -129,8 +129,8 @@ TEST(FootprintTexels, LeaveOutTexelsWithoutANormal) {
   EXPECT_THROW((void)texels_under(material_of(row, {blinn_phong, 64}), {{0.5, 0}, {0.75, 1}}), Error);
 }
 
-// A roughness map of another size and scale lies over the normals: both decide what a facet is.
-TEST(FootprintTexels, CarryTheRoughnessThatLiesOverThem) {
+// A roughness map of another size and scale covers the normals: both decide what a facet is.
+TEST(FootprintTexels, CarryTheRoughnessOverThem) {
   Material material = material_of(row_of({up, east, west, north}), {ggx, 0.5});
   material.lobe_parameter.reset();
   Image roughness(3, 1, 2, 0.0F);
@@ -179,16 +179,16 @@ TEST(ReferenceNdf, IsThePlainMeanOverTheTexels) {
   const Image normals = random_normals(37, 23, 0.9F, 11);
   for (const Lobe& lobe : {Lobe{blinn_phong, 512}, {ggx, 0.02}, {beckmann, 0.1}}) {
     const FootprintTexels texels = texels_under(material_of(normals, lobe), {{0, 0}, {1, 1}});
-    const Lobe held{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
+    const Lobe stored{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
     const auto densities = ReferenceNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t d = 0; d < densities.size(); ++d) {
       const glm::dvec3 h = glm::normalize(glm::dvec3(some_directions()[d]));
       double sum = 0.0;
       for (std::size_t i = 0; i < normals.texel_count(); ++i) {
         const glm::dvec3 n(normals.texels[4 * i], normals.texels[4 * i + 1], normals.texels[4 * i + 2]);
-        sum += lobe_peak(held) * lobe_shape(held, 0.5 * glm::dot(h - glm::normalize(n), h - glm::normalize(n)));
+        sum += lobe_peak(stored) * lobe_shape(stored, 0.5 * glm::dot(h - glm::normalize(n), h - glm::normalize(n)));
       }
-      EXPECT_NEAR(densities[d], sum / static_cast<double>(normals.texel_count()), 1e-10 * lobe_peak(held));
+      EXPECT_NEAR(densities[d], sum / static_cast<double>(normals.texel_count()), 1e-10 * lobe_peak(stored));
     }
   }
 }
@@ -226,14 +226,14 @@ TEST(ReferenceNdf, OfNormalsOnTheHorizonLosesHalf) {
 
 TEST(NdfFigures, TellHowFarADensityIsOff) {
   const HemisphereGrid grid = hemisphere_grid(16);
-  const std::vector<double> truth(grid.directions.size(), 0.5);
+  const std::vector<double> exact(grid.directions.size(), 0.5);
   std::vector<float> densities(grid.directions.size(), 1.0F);
-  const NdfFigures doubled = compare_ndfs(grid, densities, truth);
+  const NdfFigures doubled = compare_ndfs(grid, densities, exact);
   EXPECT_NEAR(doubled.l2, 1.0, 1e-12);
   EXPECT_NEAR(doubled.energy, 2.0, 1e-12);
   EXPECT_EQ(doubled.peak, 1.0);
   densities[7] = std::numeric_limits<float>::quiet_NaN();
-  const NdfFigures broken = compare_ndfs(grid, densities, truth);
+  const NdfFigures broken = compare_ndfs(grid, densities, exact);
   EXPECT_FALSE(std::isfinite(broken.l2) || std::isfinite(broken.energy) || std::isfinite(broken.peak));
 }
 
@@ -250,7 +250,7 @@ TEST(FootprintTexels, TakesLobeParametersAsTheyAre) {
   EXPECT_EQ(under.facets[1].parameter, 123456.0);
 }
 
-// The axis of each lobe stands for the facet, with the lobe's weight.
+// The axis of each lobe replaces the facet, with the lobe's weight.
 TEST(FootprintTexels, HasAFacetForEachLobe) {
   Material material;
   material.lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 0.1F, .weight = 0.5F},

@@ -96,7 +96,7 @@ TEST(TextureUnits, OneTooManyNamesTheMethodAndTheTextures) {
   EXPECT_TRUE(test::says(error.what(), "base_normal, crowd_0"));
 }
 
-// A sampler of the module's own would share unit 0 with whatever lies there.
+// A sampler of the module's own would share unit 0 with its texture.
 TEST(TextureUnits, ATextureWithoutAUnitIsAnError) {
   const Error error = error_of(Crowded(0, R"(uniform sampler2D stray;
 #define fetchFinest(map, footprint) (fetchFinest(map, footprint) + texelFetch(stray, ivec2(0), 0))
@@ -106,7 +106,7 @@ TEST(TextureUnits, ATextureWithoutAUnitIsAnError) {
   EXPECT_TRUE(test::says(error.what(), "`stray`"));
 }
 
-TEST(TextureUnits, WhatHasNoUnitCannotBeAskedFor) {
+TEST(TextureUnits, WhatHasNoUnitIsRefused) {
   const TextureUnits units({}, {});
   EXPECT_THROW((void)units.unit("base_color_map"), std::logic_error);
 }

@@ -69,8 +69,8 @@ double largest_error(const Image& picture, const dvec3& n, double weight, double
   for (int y = 0; y < edge; ++y) {
     for (int x = 0; x < edge; ++x) {
       const glm::dvec2 at = centre(x, y);
-      const double truth = coated_radiance(n, at.x, at.y, weight, alpha);
-      largest = std::max(largest, std::abs(picture.at(x, y)[0] / truth - 1.0));
+      const double expected = coated_radiance(n, at.x, at.y, weight, alpha);
+      largest = std::max(largest, std::abs(picture.at(x, y)[0] / expected - 1.0));
     }
   }
   return largest;
@@ -81,7 +81,7 @@ TEST(ClearCoat, IsTheExtensionsFormula) {
     const Scene scene = coated_square(coat_of(0.8F, static_cast<float>(roughness)));
     const Image picture = TestRenderer(scene, {edge, edge}).frame(base_surface());
     EXPECT_LT(largest_error(picture, {0, 0, 1}, 0.8F, roughness * roughness), 2e-5) << roughness;
-    EXPECT_GT(largest_error(picture, {0, 0, 1}, 0.7F, roughness * roughness), 1e-3) << "another weight is told apart";
+    EXPECT_GT(largest_error(picture, {0, 0, 1}, 0.7F, roughness * roughness), 1e-3) << "another weight differs";
   }
 }
 
@@ -104,7 +104,7 @@ TEST(ClearCoat, HasMapsOfWeightAndRoughness) {
   const Image picture = TestRenderer(coated_square(coat), {edge, edge}).frame(base_surface());
   for (const int x : {edge / 4, 3 * edge / 4}) {  // where the bilinear filter sees one texel
     const std::size_t texel = x < edge / 2 ? 0 : 1;
-    const double x_at = texel == 0 ? -0.5 : 0.5;  // a texel's centre lies between pixels
+    const double x_at = texel == 0 ? -0.5 : 0.5;  // a texel's centre is between pixels
     const Image& p = picture;
     const double measured = 0.5 * (p.at(x - 1, 5)[0] + p.at(x, 5)[0]);
     const double alpha = widths.texels[texel] * widths.texels[texel];
@@ -151,9 +151,9 @@ TEST(ClearCoat, ReflectsAnEnvironment) {
       const glm::dvec2 at = centre(px, edge / 2);
       const dvec3 v = glm::normalize(dvec3(0, 0, 3) - dvec3(at, 0.0));
       const double share = layer_share({0, 0, 1}, v, 1.0);
-      const double truth = (1.0 - share) * 0.6F + share * reflected_of_white(v, roughness * roughness);
-      EXPECT_NEAR(listed.at(px, edge / 2)[0], truth, 0.005 * truth) << roughness;
-      EXPECT_NEAR(looked_up.at(px, edge / 2)[0], truth, 0.01 * truth) << roughness;
+      const double expected = (1.0 - share) * 0.6F + share * reflected_of_white(v, roughness * roughness);
+      EXPECT_NEAR(listed.at(px, edge / 2)[0], expected, 0.005 * expected) << roughness;
+      EXPECT_NEAR(looked_up.at(px, edge / 2)[0], expected, 0.01 * expected) << roughness;
     }
     EXPECT_NEAR(covered_mean(drawn) / covered_mean(listed), 1.0, 0.003) << roughness;
   }
@@ -175,16 +175,16 @@ TEST(ClearCoat, IsLookedUpInAnEnvironmentAsTheReferenceIntegratesIt) {
     scene.lights.clear();
     scene.environment = Environment{.name = "sky", .radiance = std::make_shared<const Image>(sky), .rotation = 0.0F};
     TestRenderer renderer(scene, {edge, edge});
-    const double truth = covered_mean(renderer.reference(256).mean);
-    EXPECT_GT(truth, 0.01);
-    EXPECT_NEAR(covered_mean(renderer.frame(base_surface(), {}, {}, 0, 1.0, EnvironmentUse::prefiltered)) / truth, 1.0,
-                0.03)
+    const double reference = covered_mean(renderer.reference(256).mean);
+    EXPECT_GT(reference, 0.01);
+    EXPECT_NEAR(covered_mean(renderer.frame(base_surface(), {}, {}, 0, 1.0, EnvironmentUse::prefiltered)) / reference,
+                1.0, 0.03)
         << roughness;
   }
 }
 
 // Bumps of the coat that a pixel no longer shows widen its lobe: far closer to the reference than their mean normal
-// alone, which the bare narrow lobe stands for.
+// only, which the bare narrow lobe represents.
 TEST(ClearCoat, BumpsUnderAPixelWidenIt) {
   ClearCoat coat = coat_of(1.0F, 0.3F);
   coat.normal_map = map_of(random_normals(256, 256, 0.3F, 5));
@@ -192,10 +192,11 @@ TEST(ClearCoat, BumpsUnderAPixelWidenIt) {
   coat.normal_map.reset();
   const Scene smooth = coated_square(coat);
   constexpr int few = 16;
-  const Image truth = TestRenderer(bumpy, {few, few}).reference(1024).mean;
+  const Image reference = TestRenderer(bumpy, {few, few}).reference(1024).mean;
   const auto distance = [&](const Image& picture) {
     double sum = 0;
-    for (std::size_t i = 0; i < truth.texels.size(); ++i) sum += std::pow(picture.texels[i] - truth.texels[i], 2);
+    for (std::size_t i = 0; i < reference.texels.size(); ++i)
+      sum += std::pow(picture.texels[i] - reference.texels[i], 2);
     return std::sqrt(sum);
   };
   const double widened = distance(TestRenderer(bumpy, {few, few}).frame(base_surface()));

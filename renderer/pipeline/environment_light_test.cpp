@@ -103,7 +103,7 @@ TEST(EnvironmentLight, OctahedralMapIsItsTwin) {
 
 // Between maps and behind the last. Of the largest mean over such a lobe: 3% where the environment is smooth, 10% at a
 // lamp (6% between maps, the rest between texels).
-TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
+TEST(EnvironmentLight, StackHasMeansOverLobes) {
   const Environment environment = banded_environment();
   const std::string functions = light_functions_of(NormalDistribution::vmf);
   const GpuEnvironment gpu = bound(environment);
@@ -113,15 +113,15 @@ TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
       inputs.push_back({glm::vec4(glm::vec3(glm::normalize(axis)), static_cast<float>(kappa)), {}, {}});
     const auto means = evaluate_glsl(functions, "return vec4(stackRadiance(a.xyz, a.w), 1.0);", inputs);
     for (int c = 0; c < 3; ++c) {
-      std::vector<double> truth;
-      truth.reserve(axes.size());
+      std::vector<double> exact;
+      exact.reserve(axes.size());
       for (const glm::dvec3& axis : axes) {
-        truth.push_back(vmf_average(glm::normalize(axis), kappa,
+        exact.push_back(vmf_average(glm::normalize(axis), kappa,
                                     [&](const glm::dvec3& d) { return environment_radiance(environment, d)[c]; }));
       }
-      const double largest = *std::ranges::max_element(truth);
+      const double largest = *std::ranges::max_element(exact);
       for (std::size_t i = 0; i < axes.size(); ++i)
-        EXPECT_NEAR(means[i][c], truth[i], (c == 2 ? 0.1 : 0.03) * largest)
+        EXPECT_NEAR(means[i][c], exact[i], (c == 2 ? 0.1 : 0.03) * largest)
             << "kappa " << kappa << ", axis " << i << ", channel " << c;
     }
   }
@@ -129,18 +129,18 @@ TEST(EnvironmentLight, StackHoldsMeansOverLobes) {
 
 TEST(EnvironmentLight, ShareAboveTheHorizonIsRightToTwoPercent) {
   Inputs inputs;
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const double kappa : {0.1, 1.0, 3.0, 10.0, 100.0, 2000.0}) {
     for (const double t : {-1.0, -0.5, -0.1, 0.0, 0.05, 0.3, 0.8, 1.0}) {
       inputs.push_back({glm::vec4(t, kappa, 0, 0), {}, {}});
-      truth.push_back(vmf_average({std::sqrt(1.0 - t * t), 0.0, t}, kappa,
+      exact.push_back(vmf_average({std::sqrt(1.0 - t * t), 0.0, t}, kappa,
                                   [](const glm::dvec3& d) { return d.z > 0.0 ? 1.0 : 0.0; }));
     }
   }
   const auto shares =
       evaluate_glsl(light_functions_of(NormalDistribution::vmf), "return vec4(shareAbove(a.x, a.y));", inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i)
-    EXPECT_NEAR(shares[i].x, truth[i], 0.022) << "t " << inputs[i][0].x << ", kappa " << inputs[i][0].y;
+    EXPECT_NEAR(shares[i].x, exact[i], 0.022) << "t " << inputs[i][0].x << ", kappa " << inputs[i][0].y;
 }
 
 TEST(EnvironmentLight, VisibleLobesAreTheFacetsThatFaceTheViewer) {
@@ -171,7 +171,7 @@ TEST(EnvironmentLight, VisibleLobesAreTheFacetsThatFaceTheViewer) {
 
 TEST(EnvironmentLight, FresnelMeanIsThatOfTheHemisphere) {
   Inputs inputs;
-  std::vector<double> truth;
+  std::vector<double> exact;
   for (const double c : {0.0, 0.3, 0.6, 1.0}) {
     const glm::dvec3 wo(std::sqrt(1.0 - c * c), 0, c);
     double sum = 0;
@@ -182,11 +182,11 @@ TEST(EnvironmentLight, FresnelMeanIsThatOfTheHemisphere) {
       }
     }
     inputs.push_back({glm::vec4(c, 0, 0, 0), {}, {}});
-    truth.push_back(1.0 - sum / (400 * 400));
+    exact.push_back(1.0 - sum / (400 * 400));
   }
   const auto means = evaluate_glsl(light_functions_of(NormalDistribution::vmf),
                                    "return vec4(meanTransmitted(vec3(0.0), a.x), 1.0);", inputs);
-  for (std::size_t i = 0; i < inputs.size(); ++i) EXPECT_NEAR(means[i].x, truth[i], 5e-4);
+  for (std::size_t i = 0; i < inputs.size(); ++i) EXPECT_NEAR(means[i].x, exact[i], 5e-4);
 }
 
 // A lobe's parameter, and where its normals are drawn from.
@@ -255,13 +255,13 @@ TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
                              {NormalDistribution::beckmann, 0.25F},
                              {NormalDistribution::ggx, 0.15F}}) {
     Inputs inputs;
-    std::vector<std::array<double, 2>> truth;
+    std::vector<std::array<double, 2>> expected;
     for (const double tilt : {0.0, 20.0}) {
       for (const double degrees : {0.0, 30.0, 60.0, -50.0}) {
         const glm::dvec3 n(0, std::sin(tilt * pi / 180), std::cos(tilt * pi / 180));
         const glm::dvec3 wo(std::sin(degrees * pi / 180), 0, std::cos(degrees * pi / 180));
         inputs.push_back({glm::vec4(glm::vec3(n), c.lobe), glm::vec4(glm::vec3(wo), 0), {}});
-        truth.push_back({brute_force(c, environment, n, wo, 0), brute_force(c, environment, n, wo, 1)});
+        expected.push_back({brute_force(c, environment, n, wo, 0), brute_force(c, environment, n, wo, 1)});
       }
     }
     const auto radiance = evaluate_glsl(
@@ -271,7 +271,7 @@ TEST(EnvironmentLight, LobesReflectWhatTheSumOverDirectionsSays) {
     const double bound = 0.08;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       for (int channel = 0; channel < 2; ++channel) {
-        const double exact = truth[i][static_cast<std::size_t>(channel)];
+        const double exact = expected[i][static_cast<std::size_t>(channel)];
         EXPECT_NEAR(radiance[i][channel], exact, bound * exact + 0.04)
             << "distribution " << static_cast<int>(c.distribution) << ", view " << i << ", channel " << channel;
       }
@@ -352,11 +352,11 @@ TEST(EnvironmentLight, GgxFacetsKeepTheEnergyOfAFurnace) {
   double squares = 0;
   const std::vector<Facet> all = facets();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double truth =
+    const double expected =
         ggx_reflects(all[i].alpha, all[i].normal(), all[i].wo(), [](const glm::dvec3&) { return 1.0; });
-    EXPECT_NEAR(radiance[i].x, truth, 0.07) << "alpha " << all[i].alpha << ", lean " << all[i].lean << ", view "
-                                            << all[i].view << ", azimuth " << all[i].azimuth;
-    squares += std::pow(radiance[i].x - truth, 2.0);
+    EXPECT_NEAR(radiance[i].x, expected, 0.07) << "alpha " << all[i].alpha << ", lean " << all[i].lean << ", view "
+                                               << all[i].view << ", azimuth " << all[i].azimuth;
+    squares += std::pow(radiance[i].x - expected, 2.0);
   }
   EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 0.02);
 }

@@ -21,7 +21,7 @@ constexpr std::string_view fill_pass =
     "uniform float value;\n"
     "void main() { imageStore(shade, ivec3(gl_GlobalInvocationID), vec4(value)); }\n";
 
-// Fills a texture with the number of its run, and changes whatever of the GL's state it may.
+// Fills a texture with the number of its run, and changes all GL state that it may.
 class Fill final : public FrameBuild {
  public:
   Fill(const ShaderVariant& variant, const Options& options, int& runs, std::optional<BuildInputs> inputs)
@@ -88,7 +88,7 @@ GLint state_of(GLenum name) {
   return value;
 }
 
-TEST(FrameBuild, RunsOnceAFrameWhateverTheTiles) {
+TEST(FrameBuild, RunsOncePerFrameForAnyTiles) {
   const Scene scene = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
   const Builder method;
   const EffectSet effects = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light));
@@ -123,13 +123,13 @@ TEST(FrameBuild, LeavesThePipelinesStateAlone) {
   const gl::RenderTarget target(5, 3, format, true);
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   gl::api().Viewport(0, 0, 5, 3);
-  constexpr std::array<GLenum, 6> kept{
+  constexpr std::array<GLenum, 6> states{
       GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND,
       GL_VERTEX_ARRAY_BINDING};
-  std::array<GLint, kept.size()> before{};
-  std::ranges::transform(kept, before.begin(), state_of);
+  std::array<GLint, states.size()> before{};
+  std::ranges::transform(states, before.begin(), state_of);
   gpu.build_frame({.size = {5, 3}, .camera = scene.camera});
-  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(state_of(kept.at(i)), before.at(i)) << i;
+  for (std::size_t i = 0; i < states.size(); ++i) EXPECT_EQ(state_of(states.at(i)), before.at(i)) << i;
   std::array<GLint, 4> viewport{};
   gl::api().GetIntegerv(GL_VIEWPORT, viewport.data());
   EXPECT_EQ(viewport, (std::array<GLint, 4>{0, 0, 5, 3}));
@@ -155,7 +155,7 @@ std::vector<int> runs_over(const std::vector<Scene>& frames, const BuildInputs& 
   return runs;
 }
 
-TEST(FrameBuild, IsKeptUntilSomethingThatGoesIntoItChanges) {
+TEST(FrameBuild, IsReusedUntilOneOfItsInputsChanges) {
   const Scene still = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
   std::vector<Scene> frames(6, still);
   for (std::size_t i = 2; i < frames.size(); ++i) frames[i].camera.world[3].x = 0.1F;
@@ -174,10 +174,10 @@ TEST(GpuSceneUpdate, DrawsWhatAFreshSceneDraws) {
   for (Vertex& vertex : after.meshes[0].vertices) vertex.position.z += 0.2F * vertex.position.x;
   after.materials[0].roughness = 0.3F;
   std::get<PointLight>(after.lights[0]).position = {-0.5F, 0.2F, 1.0F};
-  TestRenderer fresh(after), kept(before);
-  kept.update(after);
-  EXPECT_EQ(kept.frame(base_surface()), fresh.frame(base_surface()));
-  EXPECT_NE(kept.frame(base_surface()), TestRenderer(before).frame(base_surface()));
+  TestRenderer fresh(after), updated(before);
+  updated.update(after);
+  EXPECT_EQ(updated.frame(base_surface()), fresh.frame(base_surface()));
+  EXPECT_NE(updated.frame(base_surface()), TestRenderer(before).frame(base_surface()));
 }
 
 TEST(GpuSceneUpdate, RefusesAnotherScene) {

@@ -22,7 +22,7 @@ gl::Texture plain_texture(const Image& image, GLenum internal_format, GLenum for
   return texture;
 }
 
-constexpr std::size_t vectors_a_vertex = 5;
+constexpr std::size_t vectors_per_vertex = 5;
 
 }  // namespace
 
@@ -128,7 +128,7 @@ GpuVisibility::GpuVisibility(const Scene& scene, const Environment& environment,
   const PrefilteredTexture maps = make_array_texture("visibility_maps", std::move(chains), Storage::fp32, {});
   maps_ = upload_texels(maps);
   for (const Mesh& mesh : scene.meshes) vertex_count_ += mesh.vertices.size();
-  bytes_ = byte_count(maps) + vertex_count_ * vectors_a_vertex * sizeof(glm::vec4);
+  bytes_ = byte_count(maps) + vertex_count_ * vectors_per_vertex * sizeof(glm::vec4);
 }
 
 std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t material) const {

@@ -1,4 +1,4 @@
-// What large bodies hide of an environment, in methods and in the reference, against what geometry and rays tell.
+// The part of an environment that large bodies hide, in methods and the reference, against geometry and rays.
 #include "renderer/pipeline/gpu_environment.hpp"
 
 #include <gtest/gtest.h>
@@ -48,8 +48,8 @@ Scene metal_by_a_wall() {
   return scene;
 }
 
-double relative_rmse(const Image& picture, const Image& truth) {
-  return compare_images(picture, truth, 1.0F).value().relative_rmse;
+double relative_rmse(const Image& picture, const Image& reference) {
+  return compare_images(picture, reference, 1.0F).value().relative_rmse;
 }
 
 // An endless wall of height H at distance d hides (1 - cos atan(H / d)) / 2 of a floor's irradiance.
@@ -59,34 +59,34 @@ TEST(GpuVisibility, AWallHidesItsPartOfTheIrradiance) {
   const Supersampled reference = renderer.reference(64);
   for (int x = 0; x < picture_size; ++x) {
     const double d = gap + 2.0 * (x + 0.5) / picture_size;
-    const double truth = 0.5 + 0.5 * d / std::hypot(d, wall_height);
-    EXPECT_NEAR(picture.at(x, picture_size / 2)[0], truth, 0.04) << "distance " << d;
+    const double expected = 0.5 + 0.5 * d / std::hypot(d, wall_height);
+    EXPECT_NEAR(picture.at(x, picture_size / 2)[0], expected, 0.04) << "distance " << d;
     double mean = 0, variance = 0;
     for (int y = 0; y < picture_size; ++y) {
       mean += reference.mean.at(x, y)[0] / picture_size;
       variance += std::pow(static_cast<double>(reference.standard_error.at(x, y)[0]) / picture_size, 2.0);
     }
-    EXPECT_NEAR(mean, truth, 4.0 * std::sqrt(variance) + 0.04) << "distance " << d;
+    EXPECT_NEAR(mean, expected, 4.0 * std::sqrt(variance) + 0.04) << "distance " << d;
   }
 }
 
 // Where the mirror image of the view meets the wall nothing is seen, where it passes over it the sky is.
-TEST(GpuVisibility, AWallStandsInAMirror) {
+TEST(GpuVisibility, AWallIsInAMirror) {
   TestRenderer renderer(metal_by_a_wall(), {picture_size, picture_size});
   const Image picture = renderer.frame(base_surface());
-  const Image truth = renderer.reference(64).mean;
+  const Image reference = renderer.reference(64).mean;
   const auto middle = [](const Image& image, int row) { return image.at(picture_size / 2, row)[0]; };
   int last = picture_size - 1;  // the floor's nearest row
   while (last > 0 && picture.at(picture_size / 2, last)[3] < 1.0F) --last;
-  EXPECT_GT(middle(truth, last), 0.9);
-  EXPECT_NEAR(middle(picture, last), middle(truth, last), 0.06);
+  EXPECT_GT(middle(reference, last), 0.9);
+  EXPECT_NEAR(middle(picture, last), middle(reference, last), 0.06);
   double lowest = 1;
-  for (int row = 0; row <= last; ++row) lowest = std::min<double>(lowest, middle(truth, row));
+  for (int row = 0; row <= last; ++row) lowest = std::min<double>(lowest, middle(reference, row));
   EXPECT_LT(lowest, 0.1);
-  EXPECT_LT(relative_rmse(picture, truth), 0.12);
+  EXPECT_LT(relative_rmse(picture, reference), 0.12);
   Scene open = metal_by_a_wall();
   open.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(open, {picture_size, picture_size}).frame(base_surface()), truth), 0.3);
+  EXPECT_GT(relative_rmse(TestRenderer(open, {picture_size, picture_size}).frame(base_surface()), reference), 0.3);
 }
 
 // Of a Lambert surface's irradiance under a white sky what 4000 rays say.
@@ -101,7 +101,7 @@ double irradiance_by_rays(const Occluders& occluders, const glm::vec3& point) {
   return static_cast<double>(clear) / rays;
 }
 
-// A ball that lies on the floor: what is between vertices and what the components leave out, against rays, at floor
+// A ball on the floor: what is between vertices and what the components leave out, against rays, at floor
 // points that the camera sees.
 TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   Scene scene = under_white_sky(white_floor());
@@ -109,7 +109,7 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
   fit_bounds(scene);
   TestRenderer renderer(scene, {picture_size, picture_size});
   const Image picture = renderer.frame(base_surface());
-  const Image truth = renderer.reference(64).mean;
+  const Image reference = renderer.reference(64).mean;
   const Occluders occluders(scene);
   double squares = 0, reference_squares = 0;
   int count = 0;
@@ -120,19 +120,19 @@ TEST(GpuVisibility, ABallDarkensTheFloorAsRaysSay) {
       if (glm::distance(glm::vec2(point), glm::vec2(0.1F, 0.0F)) < 0.5F) continue;
       const double exact = irradiance_by_rays(occluders, point);
       squares += std::pow(picture.at(x, y)[0] - exact, 2.0);
-      reference_squares += std::pow(truth.at(x, y)[0] - exact, 2.0);
+      reference_squares += std::pow(reference.at(x, y)[0] - exact, 2.0);
       ++count;
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 0.02);
   EXPECT_LT(std::sqrt(reference_squares / count), 0.02);  // with its noise
-  EXPECT_LT(relative_rmse(picture, truth), 0.03);
+  EXPECT_LT(relative_rmse(picture, reference), 0.03);
   for (const float value : picture.texels) EXPECT_LE(value, 1.002F);
   scene.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.1);
+  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), reference), 0.1);
 }
 
-// A low sun behind the wall, and little else: the shadow lies where the reference has it.
+// A low sun behind the wall, and little else: the shadow is where the reference has it.
 TEST(GpuVisibility, AWallHidesASmallSun) {
   Scene scene = floor_by_a_wall();
   Image map(512, 256, 3, 0.2F);
@@ -144,12 +144,12 @@ TEST(GpuVisibility, AWallHidesASmallSun) {
   TestRenderer renderer(scene, {picture_size, picture_size});
   ASSERT_EQ(renderer.gpu_scene().environment()->sun_count(), 1U);
   const Image picture = renderer.frame(base_surface());
-  const Image truth = renderer.reference(64).mean;
+  const Image reference = renderer.reference(64).mean;
   const float lit = picture.at(picture_size - 2, picture_size / 2)[0], hidden = picture.at(4, picture_size / 2)[0];
   EXPECT_LT(hidden, 0.2F * lit);
-  EXPECT_LT(relative_rmse(picture, truth), 0.06);
+  EXPECT_LT(relative_rmse(picture, reference), 0.06);
   scene.shadows.cast = false;
-  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), truth), 0.5);
+  EXPECT_GT(relative_rmse(TestRenderer(scene, {picture_size, picture_size}).frame(base_surface()), reference), 0.5);
 }
 
 TEST(GpuVisibility, IsNowhereWhereNothingHidesTheEnvironment) {

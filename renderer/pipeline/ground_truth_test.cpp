@@ -73,7 +73,7 @@ double radiance_at(const Image& map, const Case& c, int channel, double x, doubl
   return sum * irradiance;
 }
 
-// The mean over pixel (px, py) of a picture of `edge` pixels, by the midpoint rule with `quadrature` points an axis.
+// The mean over pixel (px, py) of a picture of `edge` pixels, by the midpoint rule with `quadrature` points per axis.
 double true_pixel(const Image& map, const Case& c, int channel, int edge, int quadrature, int px, int py) {
   double sum = 0;
   for (int j = 0; j < quadrature; ++j) {
@@ -115,19 +115,19 @@ TEST_P(GroundTruth, ReferenceConvergesToOneInAThousand) {
   constexpr int edge = 32;
   TestRenderer renderer(scene_, {edge, edge});
   const Supersampled picture = renderer.reference(4096, 5);
-  std::array<double, 3> sum{}, truth{};
+  std::array<double, 3> sum{}, expected{};
   for (int y = 0; y < edge; ++y) {
     for (int x = 0; x < edge; ++x) {
       for (int c = 0; c < 3; ++c) {
         sum[static_cast<std::size_t>(c)] += picture.mean.at(x, y)[static_cast<std::size_t>(c)];
-        truth[static_cast<std::size_t>(c)] += true_pixel(map_, GetParam(), c, edge, 24, x, y);
+        expected[static_cast<std::size_t>(c)] += true_pixel(map_, GetParam(), c, edge, 24, x, y);
       }
     }
   }
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / truth[c], 1.0, 1e-3) << "channel " << c;
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / expected[c], 1.0, 1e-3) << "channel " << c;
 }
 
-// The tests above can fail: another normal map is told apart.
+// The tests above can fail: another normal map differs.
 TEST_P(GroundTruth, AnotherMapIsFarOutside) {
   TestRenderer renderer(square_scene(random_normals(map_edge, map_edge, 0.5F, 8), GetParam().material),
                         {picture_edge, picture_edge});
@@ -135,8 +135,8 @@ TEST_P(GroundTruth, AnotherMapIsFarOutside) {
   int outliers = 0;
   for (int y = 0; y < picture_edge; ++y) {
     for (int x = 0; x < picture_edge; ++x) {
-      const double truth = true_pixel(map_, GetParam(), 0, picture_edge, 96, x, y);
-      if (std::abs(picture.mean.at(x, y)[0] - truth) > 3.0 * picture.standard_error.at(x, y)[0]) ++outliers;
+      const double expected = true_pixel(map_, GetParam(), 0, picture_edge, 96, x, y);
+      if (std::abs(picture.mean.at(x, y)[0] - expected) > 3.0 * picture.standard_error.at(x, y)[0]) ++outliers;
     }
   }
   EXPECT_GT(outliers, 16);
@@ -160,7 +160,7 @@ struct Quad {
   const char* name;
   Case material;
   int edge;                      // pixels
-  std::array<double, 2> before;  // RMSE of independent texels on a jittered grid, at 64 and at 256 samples a pixel
+  std::array<double, 2> before;  // RMSE of independent texels on a jittered grid, at 64 and at 256 samples per pixel
 };
 
 struct Errors {
@@ -179,7 +179,7 @@ class Convergence : public ::testing::TestWithParam<Quad> {
     const int edge = GetParam().edge;
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x)
-        truth_.push_back(true_pixel(map_, GetParam().material, 0, edge, edge > 20 ? 48 : 160, x, y));
+        expected_.push_back(true_pixel(map_, GetParam().material, 0, edge, edge > 20 ? 48 : 160, x, y));
     }
   }
 
@@ -187,20 +187,20 @@ class Convergence : public ::testing::TestWithParam<Quad> {
     Errors sums;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const Supersampled picture = renderer_.reference(spp, seed);
-      for (std::size_t i = 0; i < truth_.size(); ++i) {
-        sums.rmse += std::pow(picture.mean.texels[4 * i] - truth_[i], 2);
+      for (std::size_t i = 0; i < expected_.size(); ++i) {
+        sums.rmse += std::pow(picture.mean.texels[4 * i] - expected_[i], 2);
         sums.floor += std::pow((picture.halves->first.texels[4 * i] - picture.halves->second.texels[4 * i]) / 2.0, 2);
         sums.standard_error += std::pow(picture.standard_error.texels[3 * i], 2);
       }
     }
-    const auto mean = [&](double sum) { return std::sqrt(sum / static_cast<double>(seeds * truth_.size())); };
+    const auto mean = [&](double sum) { return std::sqrt(sum / static_cast<double>(seeds * expected_.size())); };
     return {mean(sums.rmse), mean(sums.floor), mean(sums.standard_error)};
   }
 
  private:
   Image map_ = random_normals(map_edge, map_edge, 0.5F, 7);
   TestRenderer renderer_{square_scene(map_, GetParam().material.material), {GetParam().edge, GetParam().edge}};
-  std::vector<double> truth_;
+  std::vector<double> expected_;
 };
 
 TEST_P(Convergence, IsAtMostHalfOfWhatAJitteredGridLeaves) {
@@ -217,7 +217,7 @@ TEST_P(Convergence, NoiseIsWhatItSays) {
   EXPECT_NEAR(own.floor / own.rmse, 1.0, 0.25);
   EXPECT_GT(own.standard_error / own.rmse, 0.8);
   EXPECT_LT(own.standard_error / own.rmse, 3.0);
-  EXPECT_GT(errors(16, 40).floor / own.rmse, 1.5);  // it can fail: another count's error is told apart
+  EXPECT_GT(errors(16, 40).floor / own.rmse, 1.5);  // it can fail: another count's error differs
 }
 
 INSTANTIATE_TEST_SUITE_P(BaseBrdfs, GroundTruth, ::testing::Values(gltf_case, blinn_phong_case));

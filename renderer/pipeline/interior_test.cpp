@@ -156,7 +156,7 @@ TEST(Interior, LeavesOutDepthSteps) {
       << "without the criterion";
 }
 
-// A twentieth of the pixel is no step; the criterion goes by the pixel, not by metres.
+// A twentieth of the pixel is not a step, because the criterion is relative to the pixel, not to metres.
 TEST(Interior, DepthStepsAreOfThePixelsSize) {
   Strip lower = right_half;
   lower.height = -0.05F * 2.0F / view_edge;
@@ -166,7 +166,7 @@ TEST(Interior, DepthStepsAreOfThePixelsSize) {
   EXPECT_EQ(count(interior_of(scene, view_edge).mask), view_edge * view_edge);
 }
 
-// At a slant a step along the view lies nearly in the plane: what the pixel spans there tells it.
+// At a slant a step along the view is nearly in the plane: the pixel's span there shows it.
 TEST(Interior, LeavesOutStepsBetweenGrazingSheets) {
   Scene scene = two_strips({.left = -2, .right = 2, .height = 0}, {.left = -2, .right = 2, .height = -0.2F});
   Mesh& mesh = scene.meshes[0];
@@ -181,7 +181,7 @@ TEST(Interior, LeavesOutStepsBetweenGrazingSheets) {
   EXPECT_GT(with, view_edge * view_edge / 2.0);
 }
 
-// A roof of 15 degrees over all; its ridge lies in the midst of the pixels, so that no step between samples leaves the
+// A roof of 15 degrees over all; its ridge is in the middle of the pixels, so that no step between samples leaves the
 // plane of the first by more than 10.
 TEST(Interior, LeavesOutCreases) {
   const float slope = std::tan(7.5F * 3.14159265F / 180.0F);
@@ -235,7 +235,7 @@ TEST(Interior, LeavesOutCutsWithinAChart) {
       << "without the criterion";
 }
 
-// A box over a floor, and light that comes slanting along x: the edge of its shadow lies at x = 0.55.
+// A box over a floor, and light that comes slanting along x: the edge of its shadow is at x = 0.55.
 Scene shadowed_floor(int resolution) {
   Scene scene = box_over_floor();
   scene.lights = {DirectionalLight{.direction = glm::normalize(glm::vec3(0.6F, 0, -1)), .illuminance = glm::vec3(3)}};
@@ -245,7 +245,7 @@ Scene shadowed_floor(int resolution) {
 }
 
 TEST(Interior, LeavesOutEdgesOfShadows) {
-  constexpr int pixels = 81;  // the edge lies within one
+  constexpr int pixels = 81;  // the edge is within one
   const auto column = [](double x) { return static_cast<int>((x + 1.0) / 2.0 * pixels); };
   const Image mask = interior_of(shadowed_floor(2048), pixels).mask;
   const Image all = interior_of(shadowed_floor(2048), pixels, {.shadows = false}).mask;
@@ -255,7 +255,7 @@ TEST(Interior, LeavesOutEdgesOfShadows) {
   EXPECT_EQ(all.at(column(0.55), pixels / 2)[0], 1.0F) << "without the criterion";
 }
 
-// Texels of a quarter of a metre: their soft edge is 24 pixels wide, and a pixel's centre stands for it.
+// Texels of a quarter of a metre: their soft edge is 24 pixels wide, and a pixel's centre represents it.
 TEST(Interior, KeepsWideSoftEdgesOfShadows) {
   const Scene scene = shadowed_floor(16);
   const double all = count(interior_of(scene, 224, {.shadows = false}).mask);
@@ -314,7 +314,7 @@ TEST(Interior, LeavesOutEdgesOfAlpha) {
       << "without the criterion";
 }
 
-// The square, its left quarter of another material that lies just above it.
+// The square, its left quarter of another material just above it.
 Scene two_materials() {
   Scene scene = square_scene(random_normals(16, 16, 0.8F, 1), {});
   scene.materials.push_back(scene.materials.front());
@@ -370,7 +370,7 @@ TEST(Interior, HasOneMaterialOfThoseThatShareASurface) {
   again.material = 1;
   scene.meshes.push_back(again);
   const Interior found = interior_of(scene, 34);
-  EXPECT_EQ(count(found.mask), 34 * 34) << "a map is no edge";
+  EXPECT_EQ(count(found.mask), 34 * 34) << "a map is not an edge";
   const auto masks = material_masks(found.materials, found.mask, 2);
   for (int x = 0; x < 34; ++x) {
     const double u = (x + 0.5) / 34;

@@ -35,7 +35,7 @@ struct ShadowViews {
   std::vector<int> first;  ///< of each light of the scene; a light has one map or six in a row
 };
 
-/// One map per light if the scene lies to one side of it, fitted to the bounds or to a narrower spot cone. Otherwise
+/// One map per light if the scene is to one side of it, fitted to the bounds or to a narrower spot cone. Otherwise
 /// the six faces of a cube around the light in OpenGL's order (+x, -x, +y, ...). Each map is a few texels wider than
 /// its face, so that a comparison at a seam finds its neighbours.
 [[nodiscard]] ShadowViews shadow_views(const Scene& scene);

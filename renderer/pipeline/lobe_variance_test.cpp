@@ -1,4 +1,4 @@
-// The base lobe's slope variance as methods store and fetch it: linear between texels, kept in every storage.
+// The base lobe's slope variance as methods store and fetch it: linear between texels, exact in every storage.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -70,7 +70,7 @@ TEST(LobeVariance, KeepsMirrorsInEveryStorage) {
     EXPECT_NEAR(variance_at(material, storage, 0.25F) * 1e6, 1.0, 2e-3) << storage_name(storage);
 }
 
-// The widest lobes that a map may hold: a bound on variances would make an exponent of 1 of all below it.
+// The widest lobes that a map may store: a bound on variances would make an exponent of 1 of all below it.
 TEST(LobeVariance, KeepsNearlyEvenLobesInEveryStorage) {
   const Material material = two_lobe_material(1e-3F, 0.125F);
   for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {

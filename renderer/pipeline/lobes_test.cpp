@@ -126,7 +126,7 @@ TEST(Lobes, VmfOfNoConcentrationIsUniform) {
   EXPECT_NEAR(densities(NormalDistribution::vmf, 1e-4, {0.0}).front(), 0.0795775 * (1 + 1e-4), 1e-6);
 }
 
-// Golden: the truth of four texels under exponent 100 is the mean of four lobes.
+// Golden: the exact NDF of four texels under exponent 100 is the mean of four lobes.
 TEST(Lobes, FourTexelsMeetTheGoldenDensity) {
   const std::vector<glm::vec3> normals{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.6F, 0.8F}, {-0.28F, 0, 0.96F}};
   const std::vector<std::pair<glm::vec3, double>> golden{{{0, 0, 1}, 4.086458431324459},

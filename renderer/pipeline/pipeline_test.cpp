@@ -43,7 +43,7 @@ TEST(Reference, StandardErrorFallsFasterThanTheRootOfTheSamples) {
   EXPECT_FALSE(relative_standard_error(renderer.reference(1)).has_value());
 }
 
-// One texel a sample and all four have one expectation, also where maps of other sizes take their texels at random.
+// One texel per sample and all four have one expectation, also where maps of other sizes take their texels at random.
 TEST(Reference, DrawnAndFilteredTexelsAgree) {
   Scene scene = bumpy_square();
   Image roughness(5, 3, 4, 0.3F);
@@ -92,7 +92,7 @@ TEST(Reference, InvalidNormalsEnterNoMean) {
   EXPECT_GT(fewer, 3);
 }
 
-// The surface is there whatever its map says: a bad texel takes no pixel from those that count.
+// A bad texel of a map does not hide the surface: its pixels still count.
 TEST(Reference, InvalidNormalsAreCovered) {
   Image normals = constant_normals(32, 32, {0, 0, 1});
   normals.at(11, 5)[3] = 0.0F;
@@ -184,7 +184,7 @@ TEST(Horizon, OpenLetsLightFromBelowToFacetsThatFaceIt) {
   EXPECT_NEAR(covered_mean(open.reference(4).mean), expected, 1e-4);
 }
 
-// A near plane of next to nothing leaves the picture as it is, and the order of what lies behind one another.
+// A near plane of next to nothing leaves the picture as it is, and the order of surfaces behind one another.
 TEST(Frame, NearPlaneMayLieAnywhereBeforeTheScene) {
   Scene scene = box_over_floor();
   scene.lights = {DirectionalLight{.direction = {0.3F, 0.2F, -0.93F}, .illuminance = glm::vec3(3.0F)}};
@@ -199,7 +199,7 @@ TEST(Frame, NearPlaneMayLieAnywhereBeforeTheScene) {
   }
 }
 
-TEST(Frame, PlanesCutWhatLiesBeyondThem) {
+TEST(Frame, PlanesCutWhatIsBeyondThem) {
   Scene scene = white_floor();  // 3 m before the camera
   for (const bool orthographic : {false, true}) {
     scene.camera.orthographic = orthographic;

@@ -17,8 +17,8 @@ using Mixer = std::array<std::uint16_t, 12>;
 // Row r has the digits of the index whose sum is digit r of the mixed index; 1 on the diagonal and 0 below it, so that
 // every aligned block of 2^m indices is only put into another order. Beyond the 12th, digits stay as they are. Found by
 // search, column by column out of 96 at random: the least error, over scramblings, of the integral of random texels
-// over a pixel of 1 and of 2.3 texels, drawn by the pixel's pair and this one. sample_sequence_test.cpp holds what they
-// are worth.
+// over a pixel of 1 and of 2.3 texels, drawn by the pixel's pair and this one. sample_sequence_test.cpp checks their
+// gain.
 constexpr Mixer unmixed{0x001, 0x002, 0x004, 0x008, 0x010, 0x020, 0x040, 0x080, 0x100, 0x200, 0x400, 0x800};
 constexpr std::array<Mixer, 5> mixers{
     unmixed,

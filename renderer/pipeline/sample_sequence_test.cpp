@@ -103,7 +103,7 @@ TEST(SampleSequence, AnAlignedBlockIsTheFirstOneAdded) {
 }
 
 // Root mean square error, over scramblings, of the integral of an indicator that cuts across all four dimensions of
-// pixel and another pair: whether x + u >= 1 in both, as a bilinear filter draws its texel. The truth is 1/4.
+// pixel and another pair: whether x + u >= 1 in both, as a bilinear filter draws its texel. The exact value is 1/4.
 double error_together(SamplePair pair, std::uint32_t count, bool apart) {
   double squares = 0;
   constexpr std::uint32_t seeds = 400;

@@ -30,7 +30,7 @@ std::vector<glm::dvec2> all_samples(const SampleGrid& grid, int half = -1) {
   return samples;
 }
 
-TEST(SampleGrid, HasTheCountAskedForInsideThePixel) {
+TEST(SampleGrid, HasTheRequestedCountInsideThePixel) {
   for (const int spp : {1, 2, 3, 7, 16, 36, 64, 100, 127, 4096}) {
     const auto samples = all_samples(sample_grid(spp, 1));
     ASSERT_EQ(samples.size(), static_cast<std::size_t>(spp));
@@ -86,7 +86,7 @@ TEST(SampleGrid, BlocksCutEachSequenceInTwo) {
 }
 
 // For a mean alone one draw will do; its samples are the first of a sequence, as evenly spread as any.
-TEST(SampleGrid, TakesAsFewPassesAsAreAskedFor) {
+TEST(SampleGrid, TakesAsFewPassesAsRequested) {
   const SampleGrid one = sample_grid(16, 1, 1);
   EXPECT_EQ(one.grid, 4);
   EXPECT_EQ(one.passes.size(), 1U);

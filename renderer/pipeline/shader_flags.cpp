@@ -1,4 +1,4 @@
-// A table of flags with their conditions, so that no text can ask for a flag that is never set.
+// A table of flags with their conditions, so that no text can test a flag that is never set.
 #include "renderer/pipeline/shader_flags.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a program is compiled for, and the flags that shader texts may ask for.
+// The variant of a program, and the flags that shader texts may test.
 #pragma once
 
 #include <array>

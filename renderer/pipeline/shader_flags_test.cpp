@@ -1,4 +1,4 @@
-// The flags of a variant: all that texts may ask for, and which of them are on.
+// The flags of a variant: all that texts may test, and which of them are on.
 #include "renderer/pipeline/shader_flags.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(ShaderFlags, FollowEffectsTermsAndWordOptions) {
                                    "filter_anisotropic", "several_probes", "storage_fp16"}));
 }
 
-// What is off is known all the same: texts may ask for it.
+// Flags that are off are known too, so that texts may test them.
 TEST(ShaderFlags, KnowWhatIsOff) {
   const std::vector<OptionSpec> specs{word_option("storage", {"fp32", "fp16"}, "")};
   const ShaderFlags flags = shader_flags({}, Options(specs, {}, "t"));

@@ -42,7 +42,7 @@ class Condition {
     next();
   }
 
-  bool holds() {
+  bool is_true() {
     const bool value = either();
     if (!word_.empty()) throw malformed();
     return value;
@@ -126,7 +126,7 @@ class ShaderText::Reader {
   }
 
  private:
-  // An open `if`: whether its parent keeps text, whether one of its branches was kept, and whether `else` came.
+  // An open `if`: whether its parent is included, whether one of its branches was, and whether `else` came.
   struct Branch {
     int line;
     bool outer, taken;
@@ -150,9 +150,9 @@ class ShaderText::Reader {
 
   void directive(std::string_view words) {
     if (words.starts_with("if ")) {
-      const bool holds = condition(words.substr(3));
-      branches_.push_back({line_.number, keeping_, holds});
-      keeping_ = keeping_ && holds;
+      const bool is_true = condition(words.substr(3));
+      branches_.push_back({line_.number, keeping_, is_true});
+      keeping_ = keeping_ && is_true;
     } else if (words.starts_with("elif ")) {
       go_on(words, condition(words.substr(5)));
     } else if (words == "else") {
@@ -170,14 +170,14 @@ class ShaderText::Reader {
     }
   }
 
-  bool condition(std::string_view text) const { return Condition(text, to_.flags_, line_).holds(); }
+  bool condition(std::string_view text) const { return Condition(text, to_.flags_, line_).is_true(); }
 
-  void go_on(std::string_view words, bool holds) {
+  void go_on(std::string_view words, bool is_true) {
     if (branches_.empty()) throw line_.bad(fmt::format("`{}` without an `if`", words));
     Branch& branch = branches_.back();
     if (branch.ends) throw line_.bad(fmt::format("`{}` behind an `else`", words));
-    keeping_ = branch.outer && !branch.taken && holds;
-    branch.taken = branch.taken || holds;
+    keeping_ = branch.outer && !branch.taken && is_true;
+    branch.taken = branch.taken || is_true;
   }
 
   void include(std::string_view file) {
@@ -199,7 +199,7 @@ class ShaderText::Reader {
     for (const EmbeddedText& text : to_.module_.folder) {
       if (find_text(embedded::shared_glsl, text.file) == nullptr) files.emplace_back(text.file);
     }
-    return line_.bad(fmt::format("there is no text `{}`", file), suggestion(file, files));
+    return line_.bad(fmt::format("`{}` is not a shader text", file), suggestion(file, files));
   }
 
   ShaderText& to_;

@@ -12,7 +12,7 @@ namespace footprint {
 namespace {
 
 // A module's text without the numbers of its lines.
-std::string kept(std::string_view text, const ShaderFlags& flags, EmbeddedTexts folder = {}) {
+std::string selected(std::string_view text, const ShaderFlags& flags, EmbeddedTexts folder = {}) {
   ShaderText out(flags, {"module.glsl", text, folder});
   out.include_module();
   std::string lines;
@@ -26,7 +26,7 @@ std::string kept(std::string_view text, const ShaderFlags& flags, EmbeddedTexts 
 
 Error refusal(std::string_view text, const ShaderFlags& flags = {{"fresnel", true}}) {
   try {
-    (void)kept(text, flags);
+    (void)selected(text, flags);
   } catch (const Error& error) {
     return error;
   }
@@ -36,23 +36,23 @@ Error refusal(std::string_view text, const ShaderFlags& flags = {{"fresnel", tru
 
 TEST(ShaderText, KeepsWhatIsOn) {
   constexpr std::string_view text = "a\n//? if x\nb\n//? if not y\nc\n//? else\nd\n//? end\n//? else\ne\n//? end\nf\n";
-  EXPECT_EQ(kept(text, {{"x", true}, {"y", false}}), "a\nb\nc\nf\n");
-  EXPECT_EQ(kept(text, {{"x", true}, {"y", true}}), "a\nb\nd\nf\n");
-  EXPECT_EQ(kept(text, {{"x", false}, {"y", true}}), "a\ne\nf\n");
-  EXPECT_EQ(kept(text, {{"x", false}, {"y", false}}), "a\ne\nf\n");
+  EXPECT_EQ(selected(text, {{"x", true}, {"y", false}}), "a\nb\nc\nf\n");
+  EXPECT_EQ(selected(text, {{"x", true}, {"y", true}}), "a\nb\nd\nf\n");
+  EXPECT_EQ(selected(text, {{"x", false}, {"y", true}}), "a\ne\nf\n");
+  EXPECT_EQ(selected(text, {{"x", false}, {"y", false}}), "a\ne\nf\n");
 }
 
-TEST(ShaderText, KeepsTheFirstPartThatHolds) {
+TEST(ShaderText, KeepsTheFirstPartThatIsTrue) {
   constexpr std::string_view text = "//? if x\na\n//? elif y\nb\n//? elif z\nc\n//? else\nd\n//? end\n";
   for (int bits = 0; bits < 8; ++bits) {
     const bool x = (bits & 1) != 0, y = (bits & 2) != 0, z = (bits & 4) != 0;
-    EXPECT_EQ(kept(text, {{"x", x}, {"y", y}, {"z", z}}), x ? "a\n" : y ? "b\n" : z ? "c\n" : "d\n") << bits;
+    EXPECT_EQ(selected(text, {{"x", x}, {"y", y}, {"z", z}}), x ? "a\n" : y ? "b\n" : z ? "c\n" : "d\n") << bits;
   }
 }
 
 TEST(ShaderText, KeepsNothingOfAPartWhoseParentIsOff) {
   constexpr std::string_view text = "//? if x\n//? if y\na\n//? elif y\nb\n//? else\nc\n//? end\n//? end\nd\n";
-  EXPECT_EQ(kept(text, {{"x", false}, {"y", false}}), "d\n");
+  EXPECT_EQ(selected(text, {{"x", false}, {"y", false}}), "d\n");
 }
 
 // `not` before `and` before `or`, and parentheses before all.
@@ -74,7 +74,8 @@ TEST(ShaderText, ReadsConditionsByPrecedence) {
     for (int bits = 0; bits < 8; ++bits) {
       const bool x = (bits & 1) != 0, y = (bits & 2) != 0, z = (bits & 4) != 0;
       const std::string text = "//? if " + std::string(c.condition) + "\na\n//? end\n";
-      EXPECT_EQ(kept(text, {{"x", x}, {"y", y}, {"z", z}}), c.expected(x, y, z) ? "a\n" : "") << c.condition << bits;
+      EXPECT_EQ(selected(text, {{"x", x}, {"y", y}, {"z", z}}), c.expected(x, y, z) ? "a\n" : "")
+          << c.condition << bits;
     }
   }
 }
@@ -88,7 +89,7 @@ TEST(ShaderText, AnUnknownFlagIsAnErrorWithTheNearest) {
     EXPECT_EQ(error.message(), "unknown flag `fresnle`");
     EXPECT_TRUE(error.hint().starts_with("did you mean `fresnel`?")) << error.hint();
   }
-  // Nor does one hide in text that is not kept.
+  // Nor does one hide in text that is left out.
   EXPECT_EQ(refusal("//? if not fresnel\n//? if fresnle\n//? end\n//? end\n").message(), "unknown flag `fresnle`");
 }
 
@@ -105,7 +106,7 @@ TEST(ShaderText, NamesFileAndLineOfABadDirective) {
       {"//? if fresnel\n//? else\n//? elif fresnel\n//? end\n", "`elif fresnel` behind an `else`"},
       {"//? if fresnel\n//? else\n//? else\n//? end\n", "`else` behind an `else`"},
       {"a\nb\n//? if fresnel\nc\n", "an `if` is not closed"},
-      {"a\n//? include none.glsl\n", "there is no text `none.glsl`"},
+      {"a\n//? include none.glsl\n", "`none.glsl` is not a shader text"},
   });
   constexpr std::array lines{2, 2, 2, 2, 1, 1, 1, 1, 3, 3, 3, 2};
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -119,10 +120,10 @@ TEST(ShaderText, NamesFileAndLineOfABadDirective) {
 constexpr auto folder = std::to_array<EmbeddedText>(
     {{"first.glsl", "//? include second.glsl\none\n"}, {"second.glsl", "//? if x\ntwo\n//? end\n"}});
 
-TEST(ShaderText, TakesInEachFileOnceWhereItIsKept) {
+TEST(ShaderText, IncludesEachFileOnceIfItIsUsed) {
   constexpr std::string_view text = "//? include second.glsl\na\n//? include first.glsl\n//? include first.glsl\n";
-  EXPECT_EQ(kept(text, {{"x", true}}, folder), "two\na\none\n");
-  EXPECT_EQ(kept("//? if x\n//? include first.glsl\n//? end\na\n", {{"x", false}}, folder), "a\n");
+  EXPECT_EQ(selected(text, {{"x", true}}, folder), "two\na\none\n");
+  EXPECT_EQ(selected("//? if x\n//? include first.glsl\n//? end\na\n", {{"x", false}}, folder), "a\n");
 }
 
 TEST(ShaderText, SharedTextsAreThereForAllAndOnce) {

@@ -60,7 +60,7 @@ struct Agreement {
   std::size_t compared = 0, agreeing = 0, shadowed = 0;
 };
 
-// Pixels whose neighbourhood of `reach` pixels lies wholly in light or wholly in shadow.
+// Pixels whose neighbourhood of `reach` pixels is wholly in light or wholly in shadow.
 Agreement agreement_with_rays(const Scene& scene, int edge, float reach) {
   const Occluders occluders(scene);
   const std::vector<float> shares = clear_shares(scene, edge);
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, ShadowOf, ::testing::ValuesIn(light_cases),
 
 // A box at height 0.25 to 0.5 under light that falls along (1, 0, -1): on the floor its shadow runs from 0 to 0.75 in
 // x.
-TEST(ShadowMaps, EdgeLiesWhereGeometrySaysIt) {
+TEST(ShadowMaps, EdgeIsWhereGeometryHasIt) {
   Scene scene = box_over_floor();
   scene.lights = {DirectionalLight{.direction = glm::normalize(glm::vec3(1, 0, -1)), .illuminance = glm::vec3(3)}};
   constexpr int edge = 512;
@@ -217,7 +217,7 @@ TEST(ShadowMaps, HolesLetLightThrough) {
 }
 
 // A frame's pixels and the reference's samples look the same way: away from edges both are one or the other.
-// A sheet that faces down hovers over the floor: drawn from below alone, it keeps no light from above, whatever the
+// A sheet that faces down hovers over the floor: drawn only from below, it blocks no light from above, for any
 // kind of light and whichever way round its map is.
 TEST_P(ShadowOf, LeavesTheBacksOfOneSidedTrianglesOut) {
   Scene scene = white_floor();

@@ -83,7 +83,7 @@ void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Sampl
 
 // Directions of each kind that a sample draws from an environment, its texels together: powers of two. docs/metrics.md
 // has what they are worth. One that sums over a patch's facets costs far more.
-constexpr std::uint32_t directions_a_sample = 16;
+constexpr std::uint32_t directions_per_sample = 16;
 constexpr std::uint32_t directions_of_a_patch = 2;
 
 bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
@@ -300,13 +300,13 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) const {
   set("sample_texels", [&](GLint l) {
     gl::api().ProgramUniform2uiv(name, l, static_cast<GLsizei>(cells), glm::value_ptr(texels.front()));
   });
-  if (program_.uniform("directions_a_sample") >= 0) set_directions(samples);
+  if (program_.uniform("directions_per_sample") >= 0) set_directions(samples);
 }
 
 // Sample i takes the directions of the points n i to n i + n - 1, n a power of two: an aligned block, whose digits are
 // its first one's with those of the points 0 to n - 1 added without carry.
 void SurfaceProgram::set_directions(const SampleDraw& samples) const {
-  const std::uint32_t count = has_patches(scene_effects_) ? directions_of_a_patch : directions_a_sample;
+  const std::uint32_t count = has_patches(scene_effects_) ? directions_of_a_patch : directions_per_sample;
   const int cells = samples.grid * samples.grid;
   std::vector<std::uint32_t> cell_firsts;
   cell_firsts.reserve(static_cast<std::size_t>(cells));
@@ -318,7 +318,7 @@ void SurfaceProgram::set_directions(const SampleDraw& samples) const {
   std::iota(steps.begin(), steps.end(), 0U);
   set_digits("cell_directions", "cell_choices", cell_firsts);
   set_digits("direction_steps", "choice_steps", steps);
-  gl::api().ProgramUniform1i(program_.name(), program_.uniform("directions_a_sample"), static_cast<GLint>(count));
+  gl::api().ProgramUniform1i(program_.name(), program_.uniform("directions_per_sample"), static_cast<GLint>(count));
 }
 
 // The digits of the points `indices`.

@@ -60,7 +60,7 @@ MedianInterval median_interval(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t count = values.size();
   constexpr double one_side = 0.025;
-  // P(fewer than k + 1 of the values lie below the median), for k = 0, 1, ...; each lies there with probability 1/2.
+  // P(fewer than k + 1 of the values lie below the median), for k = 0, 1, ...; each is there with probability 1/2.
   double term = std::pow(0.5, static_cast<double>(count)), below = term;
   std::size_t k = 0;
   while (k + 1 < count - k && below <= one_side) {

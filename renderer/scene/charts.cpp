@@ -208,7 +208,7 @@ class ChartCutter {
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
     for (std::size_t i = 0; i < mesh_.indices.size(); ++i) {
-      if (taken_[i / 3]) continue;  // without area it lies on an edge of others
+      if (taken_[i / 3]) continue;  // without area it is on an edge of others
       const std::uint32_t a = position_of[mesh_.indices[i]];
       const std::uint32_t b = position_of[mesh_.indices[i / 3 * 3 + (i + 1) % 3]];
       edges[std::minmax(a, b)].push_back(i);

@@ -1,4 +1,4 @@
-// Environments from scene.toml and from files: what they hold, and what is wrong with bad ones.
+// Environments from scene.toml and from files: their content, and the faults of bad ones.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Footprint filters as words: what is read is written again, and what is none is told.
+// Footprint filters as words: they are written as they are read, and unknown ones are reported.
 #include "renderer/scene/footprint_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(FootprintFilter, IsWrittenAsItIsRead) {
   EXPECT_EQ(footprint_filter_text(default_footprint_filter), "anisotropic:8") << "as help and documents have it";
 }
 
-TEST(FootprintFilter, WhatIsNoneIsToldWithWhatWouldBe) {
+TEST(FootprintFilter, UnknownFiltersAreReportedWithTheValidOnes) {
   EXPECT_NE(complaint("anisotropc:8").find("anisotropic"), std::string::npos);
   EXPECT_NE(complaint("box").find("has no number"), std::string::npos);
   EXPECT_NE(complaint("trilinear:2").find("takes none"), std::string::npos);

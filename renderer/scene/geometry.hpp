@@ -30,7 +30,7 @@ struct TriangleSoup {
 /// Removes unused vertices and renumbers the others in order of first use.
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);
 
-/// Adds the triangles of `part` to `mesh`, whatever its material.
+/// Adds the triangles of `part` to `mesh`, of any material.
 void append(Mesh& mesh, const Mesh& part);
 
 /// Gives each triangle its own three vertices with the triangle's normal, for files without normals (glTF 2.0). A

@@ -34,21 +34,21 @@ TEST(MapTexels, KeepsNormalsOfEightBitsInAsMany) {
   const Image stored = bytes_as_floats(3);
   std::vector<std::string> faults;
   const auto decode = [](const Image& image) { return decode_normal_map(image, 0.7); };
-  const MapTexels kept = kept_normals(stored, decode, "noise", faults);
+  const MapTexels map = stored_normals(stored, decode, "noise", faults);
   EXPECT_EQ(faults.size(), 1U);  // half of them point inwards
-  EXPECT_TRUE(equal_bits(kept.decoded(), decode_normal_map(stored, 0.7).image));
-  EXPECT_TRUE(equal_bits(kept.decoded(), kept.decoded()));
-  EXPECT_EQ(kept.channels(), 4);
-  EXPECT_EQ(kept.texel_count(), stored.texel_count());
-  EXPECT_EQ(kept.first()[2], kept.decoded().texels[2]);
-  EXPECT_EQ(kept.byte_count(), 3 * (stored.texel_count() + 256 * sizeof(float)));
+  EXPECT_TRUE(equal_bits(map.decoded(), decode_normal_map(stored, 0.7).image));
+  EXPECT_TRUE(equal_bits(map.decoded(), map.decoded()));
+  EXPECT_EQ(map.channels(), 4);
+  EXPECT_EQ(map.texel_count(), stored.texel_count());
+  EXPECT_EQ(map.first()[2], map.decoded().texels[2]);
+  EXPECT_EQ(map.byte_count(), 3 * (stored.texel_count() + 256 * sizeof(float)));
 }
 
 TEST(MapTexels, KeepsWhatIsComputedAsItIs) {
   const auto image = std::make_shared<const Image>(bytes_as_floats(4));
-  const MapTexels kept(image);
-  EXPECT_TRUE(equal_bits(kept.decoded(), *image));
-  EXPECT_EQ(kept.byte_count(), image->texels.size() * sizeof(float));
+  const MapTexels map(image);
+  EXPECT_TRUE(equal_bits(map.decoded(), *image));
+  EXPECT_EQ(map.byte_count(), image->texels.size() * sizeof(float));
   EXPECT_EQ(MapTexels::packed(*image).byte_count(), 4 * (image->texel_count() + 256 * sizeof(float)));
 }
 

@@ -58,7 +58,7 @@ class Counter {
   template <class... T>
   void add(const std::variant<T...>& value) {
     add(value.index());
-    std::visit([this](const auto& held) { add(held); }, value);
+    std::visit([this](const auto& content) { add(content); }, value);
   }
 
   void add(const Image& image) {

@@ -1,4 +1,4 @@
-// What tells materials and scenes apart: every field does, a material's names do not.
+// The content of materials and scenes includes every field, but not a material's names.
 #include "renderer/scene/scene.hpp"
 
 #include <gtest/gtest.h>

@@ -117,7 +117,7 @@ class ObjReader {
     const auto count = static_cast<std::int64_t>(size);
     const std::int64_t found = index < 0 ? count + index : index - 1;
     if (error != std::errc{} || end != part.data() + part.size() || found < 0 || found >= count) {
-      throw fault(fmt::format("`{:.40}` names no vertex above it", word));
+      throw fault(fmt::format("`{:.40}` is not a vertex of an earlier line", word));
     }
     return static_cast<int>(found);
   }

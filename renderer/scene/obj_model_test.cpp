@@ -60,18 +60,18 @@ void expect_fault(const std::string& text, const std::string& place, const std::
 
 TEST(ObjModel, NamesTheLineOfAFault) {
   const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  expect_fault(three + "f 1 2 4\n", ":4", "`4` names no vertex above it");
-  expect_fault(three + "f 1 2 0\n", ":4", "`0` names no vertex");
-  expect_fault(three + "f 1 2 -4\n", ":4", "`-4` names no vertex");
+  expect_fault(three + "f 1 2 4\n", ":4", "`4` is not a vertex");
+  expect_fault(three + "f 1 2 0\n", ":4", "`0` is not a vertex");
+  expect_fault(three + "f 1 2 -4\n", ":4", "`-4` is not a vertex");
   expect_fault(three + "f 1 2\n", ":4", "a face of 2 corners");
-  expect_fault(three + "f 1/1 2/1 3/1\n", ":4", "`1/1` names no vertex");
+  expect_fault(three + "f 1/1 2/1 3/1\n", ":4", "`1/1` is not a vertex");
   expect_fault(three + "f 1/2/3/4 2 3\n", ":4", "1/2/3/4");
-  expect_fault(three + "f a b c\n", ":4", "`a` names no vertex");
+  expect_fault(three + "f a b c\n", ":4", "`a` is not a vertex");
   expect_fault("v 0 0\n", ":1", "is not a number");
   expect_fault("v 0 nan 0\n", ":1", "`nan` is not a number within 1e15");
   expect_fault("v 0 1e30 0\n", ":1", "`1e30` is not a number");
   expect_fault("v 0 1x 0\n", ":1", "`1x` is not a number");
-  expect_fault("f 99999999999999999999 1 1\n", ":1", "names no vertex");
+  expect_fault("f 99999999999999999999 1 1\n", ":1", "is not a vertex");
   expect_fault("", "", "the file is empty");
 }
 

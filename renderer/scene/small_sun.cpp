@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 constexpr double least_share = 0.01;
 constexpr double least_contrast = 10.0;
-constexpr double largest_texel = 5e-4;  // steradians: 1.3 degrees a side
+constexpr double largest_texel = 5e-4;  // steradians: 1.3 degrees per side
 constexpr double smallest_disc = 0.5 * pi / 180.0;
 constexpr double texels_in_disc = 1.5;
 

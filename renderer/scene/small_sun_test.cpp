@@ -1,4 +1,4 @@
-// A texel or a few that have a part of an environment's light are told apart, to the last bit of that light; a soft
+// A texel or a few that have a part of an environment's light are separated, to the last bit of that light; a soft
 // sun, an even sky and coarse maps have none.
 #include "renderer/scene/small_sun.hpp"
 

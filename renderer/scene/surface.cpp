@@ -21,7 +21,7 @@ void check_resolution(const Surface& surface, int resolution) {
   const auto side = static_cast<std::uint64_t>(resolution);
   require_memory(frame_bytes(side, side, texel_bytes),
                  fmt::format("{}: a map of {} x {} texels", place, resolution, resolution),
-                 "ask for a smaller resolution, or free memory");
+                 "give a smaller resolution, or free memory");
 }
 
 Image optional_map(const Surface& surface, Image (*map)(const SurfaceSettings&), const SurfaceSettings& settings) {

@@ -59,7 +59,7 @@ struct SceneLibrary {
 /// The default settings of a surface, with `given` parameters by name. Throws Error (usage): as of Options.
 [[nodiscard]] SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given);
 
-/// The normal map. Throws Error (usage): a resolution out of range; (machine): more than memory holds.
+/// The normal map. Throws Error (usage): a resolution out of range; (machine): more than memory.
 [[nodiscard]] Image surface_normals(const Surface& surface, const SurfaceSettings& settings);
 
 /// The colour map; empty where the surface has none. Throws as `surface_normals`.

@@ -14,7 +14,7 @@ namespace {
 
 Mesh field(const SurfaceSettings& /*settings*/) { return make_plane({2.0F, 2.0F}, {1.0F, 1.0F}); }
 
-/// Flat but for x, which holds the seed and a parameter for the test to see.
+/// Flat but for x, which stores the seed and a parameter for the test.
 Image marked(const SurfaceSettings& settings) {
   Image map(settings.resolution, settings.resolution, 4, 1.0F);
   map.at(0, 0)[0] = static_cast<float>(settings.seed);

@@ -37,7 +37,7 @@ layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_size;  // columns, rows; turn of the map about +y in radians
 };
 
-uniform int directions_a_sample;
+uniform int directions_per_sample;
 // Digits of the first direction of each cell, and of directions by their index in the sample. Any direction adds the
 // two without carry. Separate digits for the environment, the lobe, and the choice of a lobe.
 uniform uvec4 cell_directions[16], direction_steps[16];
@@ -135,7 +135,7 @@ vec3 environmentIntegral(SurfacePoint p) {
   uvec3 seed = hashed(sample_pixel);
   uvec3 lobe_seed = hashed(seed);
   int texels = int(drawn_texels.z);
-  int count = max(directions_a_sample / texels, 1);
+  int count = max(directions_per_sample / texels, 1);
   int i = sample_texel * count;
   int end = i + count;
   do {

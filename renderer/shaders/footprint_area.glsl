@@ -13,7 +13,7 @@ struct Boxes {
   float reach;    // to either side
   float plateau;  // to where the density is even
   float density;  // there
-  float tail;     // of what is left to the end, squared, the share that lies there
+  float tail;     // share of the rest up to the end, squared
 };
 
 // The narrowest box; rounding would affect narrower ones. Bilinear weights change by less than half of it over its

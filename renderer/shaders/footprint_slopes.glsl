@@ -1,5 +1,5 @@
 // The slopes under the footprint of a pixel, from the textures of `bake_slopes` (renderer/bake/slope_moments.hpp) plus
-// a bump layer, and the lobe of common_slopes.glsl over them. The flag `mean_normal_kept` tells whether the textures
+// a bump layer, and the lobe of common_slopes.glsl over them. The flag `with_mean_normal` says whether the textures
 // include the mean normal, for a diffuse term over one map only.
 //? include common_slopes.glsl
 //? include fetch_pair.glsl
@@ -10,7 +10,7 @@
 struct FilteredSlopes {
   vec2 mean;
   mat2 spread;  // covariance
-//? if mean_normal_kept and diffuse and normal_variation and not normal_layers
+//? if with_mean_normal and diffuse and normal_variation and not normal_layers
   vec3 mean_normal;  // not renormalised
 //? end
 };
@@ -28,14 +28,14 @@ FilteredSlopes filteredSlopes(Footprints f) {
   vec4 moments = vec4(0.0);
   vec4 rest = vec4(0.0);
 //? if normal_variation
-//? if variant_clean and (normal_layers or not diffuse or not mean_normal_kept)
+//? if variant_clean and (normal_layers or not diffuse or not with_mean_normal)
   moments = fetch(slope_moments, f.normal);
 //? else
   fetchPair(slope_moments, slope_rest, f.normal, moments, rest);
 //? end
   s.mean = moments.xy;
   s.spread = spreadOf(moments, rest);
-//? if mean_normal_kept and diffuse and not normal_layers
+//? if with_mean_normal and diffuse and not normal_layers
 //? if variant_clean
   s.mean_normal = rest.xyz;
 //? else

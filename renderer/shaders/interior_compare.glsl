@@ -42,7 +42,7 @@ bool isOnSurface(vec3 step, vec3 facet, float extent) {
 }
 
 // Texture coordinates change at most twice as fast as over the plane of the triangle, which allows for curvature.
-// Wrapping at the border of a repeating map is no jump.
+// Wrapping at the border of a repeating map is not a jump.
 bool isWithoutJump(vec2 change, float stretch, float size) {
   vec2 repeated = change - round(change);
   return min(length(change), length(repeated)) <= 2.0 * stretch * size + 1e-4;

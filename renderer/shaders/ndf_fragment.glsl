@@ -2,7 +2,7 @@
 // module replaces the line `module`.
 layout(location = 0) out float density;
 
-uniform sampler2D ndf_directions;  // one per pixel: unit vectors, or zero where nothing is asked
+uniform sampler2D ndf_directions;  // one per pixel: unit vectors, or zero where nothing is evaluated
 uniform vec2 footprint_uv[3];      // slots normal, roughness, base_color: centre and edges of the footprint
 uniform vec2 footprint_dx[3];
 uniform vec2 footprint_dy[3];

@@ -5,7 +5,7 @@
 const int facets_per_sample = 32;  // each from another share of the facets, which lie in the order of their normals
 const int facets_per_row = 128;
 const int visibility_side = 32;    // of the grid of directions
-const int bits_per_texel = 96;     // 24 per channel: what a float holds exactly
+const int bits_per_texel = 96;     // 24 per channel: exact in a float
 const int texels_per_facet = (visibility_side * visibility_side + bits_per_texel - 1) / bits_per_texel;
 
 // The draws of one sample.
@@ -24,7 +24,7 @@ FacetDraw drawnFacets() {
 int patchFacet(FacetDraw draw, int k) {
   ivec2 size = textureSize(base_facets, 0);
   int share = size.x * size.y / facets_per_sample;
-  float drawn = fract(draw.random.x + 0.618034 * float(k));  // even over k, whatever the sample drew
+  float drawn = fract(draw.random.x + 0.618034 * float(k));  // even over k, for any draw of the sample
   return k * share + min(int(drawn * float(share)), share - 1);
 }
 

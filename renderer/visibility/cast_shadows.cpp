@@ -140,14 +140,14 @@ class Search {
   const Light* light_;
 };
 
-constexpr int directions_a_point = 16;
+constexpr int directions_per_point = 16;
 constexpr float lowest = 0.05F;  // over the plane, as a sine: lower ones meet the surface's own uneven triangles
 
 // Directions of equal solid angle, turned from point to point.
 glm::vec3 spread_direction(std::size_t point, int i) {
   constexpr double golden = 0.6180339887498949;
-  const double z = 1.0 - (2.0 * i + 1.0) / directions_a_point;
-  const double azimuth = 2.0 * std::numbers::pi * (golden * (static_cast<double>(point) * directions_a_point + i));
+  const double z = 1.0 - (2.0 * i + 1.0) / directions_per_point;
+  const double azimuth = 2.0 * std::numbers::pi * (golden * (static_cast<double>(point) * directions_per_point + i));
   const double r = std::sqrt(1.0 - z * z);
   return {static_cast<float>(r * std::cos(azimuth)), static_cast<float>(r * std::sin(azimuth)), static_cast<float>(z)};
 }
@@ -155,7 +155,7 @@ glm::vec3 spread_direction(std::size_t point, int i) {
 bool sees_something(const Scene& scene, const Occluders& occluders, const SurfacePoint& point, std::size_t index) {
   const glm::vec3 normal = occluders.normal(point.mesh, point.triangle);
   const bool both_sides = scene.materials[static_cast<std::size_t>(scene.meshes[point.mesh].material)].double_sided;
-  for (int i = 0; i < directions_a_point; ++i) {
+  for (int i = 0; i < directions_per_point; ++i) {
     const glm::vec3 direction = spread_direction(index, i);
     const float elevation = glm::dot(direction, normal);
     if ((both_sides ? std::abs(elevation) : elevation) < lowest) continue;

@@ -59,7 +59,7 @@ TEST(CastShadows, WhatIsNotDrawnFromTheLightCastsNone) {
   EXPECT_TRUE(casts(scene, from_below));
 }
 
-TEST(CastShadows, LightBetweenBoxAndFloorIsKeptFromNeither) {
+TEST(CastShadows, LightBetweenBoxAndFloorReachesBoth) {
   EXPECT_FALSE(casts(box_over_floor(), PointLight{.position = {0, 0, 0.1F}, .intensity = glm::vec3(1), .range = {}}));
 }
 
@@ -77,7 +77,7 @@ TEST(CastShadows, LightCountsOnlyWhereItShines) {
   EXPECT_FALSE(casts(box_over_floor(), far));
 }
 
-// What is small is found whether it stands over something large or under it.
+// Small things are found over something large and under it.
 TEST(CastShadows, SmallPartsAreFound) {
   Scene speck = white_floor();
   speck.meshes.push_back(box_mesh({0.337F, -0.511F, 0.2F}, {0.338F, -0.510F, 0.201F}));

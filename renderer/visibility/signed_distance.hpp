@@ -23,7 +23,7 @@ using SphereVisibility = std::bitset<std::size_t{visibility_edge} * visibility_e
 /// The directions of the grid, the middles of its cells, unit.
 [[nodiscard]] const std::vector<glm::vec3>& visibility_directions();
 
-/// The cell that a direction (of any length but 0) lies in.
+/// The cell of a direction (of any length but 0).
 [[nodiscard]] std::size_t visibility_cell(const glm::dvec3& direction);
 
 /// The visible directions at a surface point: those above the plane of its unit `normal` that no triangle blocks, and

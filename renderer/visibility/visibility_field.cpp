@@ -32,7 +32,7 @@ constexpr std::size_t vertices_at_once = 512;  // between two reports of progres
 constexpr std::size_t channels = 4;
 constexpr int fewest_columns = 512;  // of an environment, eight or so for each cell along the equator
 
-using Distances = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // a row a vertex
+using Distances = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // a row per vertex
 
 std::vector<glm::vec3> map_directions() {
   std::vector<glm::vec3> directions;

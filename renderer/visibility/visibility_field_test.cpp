@@ -1,4 +1,4 @@
-// Signed distances against angles that geometry tells, and what they are for: the visible share of a lobe, against the
+// Signed distances against angles known from geometry, and their purpose: the visible share of a lobe, against the
 // lobe times binary visibility summed over the sphere.
 #include "renderer/visibility/visibility_field.hpp"
 
@@ -55,8 +55,8 @@ TEST(SignedDistances, OfABallAreAnglesToItsEdge) {
     double worst = 0;
     for (std::size_t i = 0; i < directions.size(); ++i) {
       const double angle = std::acos(static_cast<double>(directions[i].z));
-      const double truth = std::min(angle - radius, 0.5 * std::numbers::pi - angle);
-      if (std::abs(truth) > 4.0 * degree) worst = std::max(worst, std::abs(distances[i] - truth));
+      const double expected = std::min(angle - radius, 0.5 * std::numbers::pi - angle);
+      if (std::abs(expected) > 4.0 * degree) worst = std::max(worst, std::abs(distances[i] - expected));
     }
     EXPECT_LT(worst, 4.0 * degree) << radius / degree;
   }
@@ -171,9 +171,9 @@ TEST(VisibilityField, KeepsTheDistances) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < scene.meshes[0].vertices.size(); i += 17) {
     const Vertex& vertex = scene.meshes[0].vertices[i];
-    const auto truth = signed_distances(visibility_at(occluders, vertex.position, vertex.normal), directions);
+    const auto expected = signed_distances(visibility_at(occluders, vertex.position, vertex.normal), directions);
     for (std::size_t j = 0; j < directions.size(); ++j) {
-      squares += std::pow(reconstructed(field, field.meshes[0][i], directions[j]) - truth[j], 2);
+      squares += std::pow(reconstructed(field, field.meshes[0][i], directions[j]) - expected[j], 2);
       ++count;
     }
   }
@@ -200,8 +200,8 @@ TEST(VisibilityField, LightOfCellsIsAllOfTheLight) {
   const Environment sky = sky_environment({});
   glm::dvec3 sum(0.0);
   for (const glm::dvec3& cell : visibility_light(sky)) sum += cell;
-  const glm::dvec3 truth = 4.0 * std::numbers::pi * mean_radiance(*sky.radiance);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], truth[c], 1e-3 * truth[c]);
+  const glm::dvec3 expected = 4.0 * std::numbers::pi * mean_radiance(*sky.radiance);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected[c], 1e-3 * expected[c]);
   for (const glm::dvec3& cell : visibility_light(constant_environment(glm::vec3(1.0F)))) {
     EXPECT_GT(cell.x, 0.2 * 4.0 * std::numbers::pi / 1024.0);
     EXPECT_LT(cell.x, 5.0 * 4.0 * std::numbers::pi / 1024.0);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array flicker_parts{&FlickerCauses::shading, &FlickerCauses::edges, &FlickerCauses::filter,
                                    &FlickerCauses::method};
 
-// Of the figures that are there: their mean and their largest.
+// The mean and the maximum of the figures that exist.
 struct Summary {
   double sum = 0, largest = 0;
   int count = 0;

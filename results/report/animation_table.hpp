@@ -11,7 +11,7 @@ namespace footprint {
 /// results: of an animation (`way`).
 [[nodiscard]] std::string path_words(const Results& results);
 
-/// Two tables in Markdown, one line a method: means over the frames and the worst frame's flicker; the causes of
+/// Two tables in Markdown, one line per method: means over the frames and the worst frame's flicker; the causes of
 /// flicker. results: of an animation (`way`).
 [[nodiscard]] std::string animation_table(const Results& results);
 

@@ -77,7 +77,7 @@ void add_keys(const Map& map, std::set<std::string>& keys) {
   for (const auto& [key, value] : map) keys.insert(key);
 }
 
-// How a figure differs; none where it does not.
+// The difference of a figure in words; none without one.
 std::optional<std::string> difference(const std::string& name, const double* before, const double* now,
                                       double tolerance) {
   if (before == nullptr) return fmt::format("{} {:.6g}, missing in the baseline", name, *now);
@@ -114,7 +114,7 @@ std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report) {
   for (const ThresholdOutcome& threshold : report.thresholds) {
     outcomes.push_back({.suite = report.name,
                         .name = "threshold " + threshold.measure,
-                        .failure = threshold.held() ? "" : shortfall_of(threshold),
+                        .failure = threshold.passed() ? "" : shortfall_of(threshold),
                         .place = threshold.place});
   }
   return outcomes;

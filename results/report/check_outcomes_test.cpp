@@ -80,7 +80,7 @@ TEST(Baseline, ComesBackAsItWasWritten) {
   EXPECT_EQ(read.figures, written.figures);
 }
 
-TEST(Baseline, WhatLiesWithinTheToleranceHolds) {
+TEST(Baseline, DifferencesWithinTheTolerancePass) {
   const Baseline baseline{.tolerance = 1e-4, .figures = figures(0.1, 1024)};
   for (const double error : {0.1, 0.10009, 0.09991}) {
     const auto outcomes = compare_with_baseline(baseline, figures(error, 1024), "file");

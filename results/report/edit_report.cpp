@@ -25,7 +25,7 @@ std::optional<double> stage_ms(const EditRecord& record, const std::string& stag
   return found == record.stages.end() ? std::nullopt : std::optional(milliseconds * found->seconds);
 }
 
-// Of the figures that are there, at least one; sorted.
+// sorted: at least one value, in ascending order.
 double median(const std::vector<double>& sorted) {
   const std::size_t middle = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);

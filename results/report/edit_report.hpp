@@ -1,4 +1,4 @@
-// What `footprint edit` measured, frame by frame: edit.json, edit.csv and the table.
+// The measurements of `footprint edit`, frame by frame: edit.json, edit.csv and the table.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct EditRecord {
   std::vector<StageTime> stages;                  ///< one after the other, from the geometry to the frame
   std::uint64_t bytes = 0;                        ///< of the baked maps
   std::vector<std::string> notes;                 ///< what the method says of each material, by material
-  std::string image;  ///< EXR, from the output folder; a .png of the same stem lies beside it
+  std::string image;                              ///< EXR, from the output folder; with a .png of the same stem
 
   /// The sum of the stages, seconds.
   [[nodiscard]] double seconds() const;

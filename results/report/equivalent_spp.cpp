@@ -1,4 +1,4 @@
-// Walks the supersampling curve from its right end to the last point that is no better than the method.
+// Walks the supersampling curve from its right end to the last point that is not better than the method.
 #include "results/report/equivalent_spp.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ std::optional<EquivalentSamples> equivalent_samples(std::span<const CurvePoint> 
   std::vector<CurvePoint> sorted(curve.begin(), curve.end());
   std::ranges::stable_sort(sorted, {}, &CurvePoint::spp);
 
-  // From the right: the last measured point that is no better than the method.
+  // From the right: the last measured point that is not better than the method.
   const auto last = std::ranges::find_if(sorted.rbegin(), sorted.rend(),
                                          [error](const CurvePoint& point) { return point.error >= error; });
   if (last == sorted.rend()) return EquivalentSamples{sorted.front().spp, CurveSide::below};

@@ -25,7 +25,7 @@ double within(std::span<const CurvePoint> curve, double error) {
   return found ? found->spp : std::nan("");
 }
 
-/// That an error lies beyond the end `spp` of the curve.
+/// That an error is beyond the end `spp` of the curve.
 void expect_beyond(std::span<const CurvePoint> curve, double error, CurveSide side, double spp) {
   const std::optional<EquivalentSamples> found = equivalent_samples(curve, error);
   ASSERT_TRUE(found) << "at error " << error;

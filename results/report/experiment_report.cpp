@@ -87,12 +87,12 @@ Table thresholds_table(const ExperimentReport& report) {
   for (const ThresholdOutcome& threshold : report.thresholds) {
     table.rows.push_back({threshold.measure, figure_text(threshold.limit),
                           threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem,
-                          threshold.held() ? "passed" : "failed"});
+                          threshold.passed() ? "passed" : "failed"});
   }
   return table;
 }
 
-// What a claim says, what it was decided by, and why it is expected to come out so.
+// The text of a claim, its figures, and the reason for its expected verdict.
 std::string claim_sentence(const ClaimOutcome& claim) {
   return fmt::format("{}: {} {} Figures: {}. Expected to be {}: {}", claim.name, claim.text,
                      claim.as_expected() ? "" : "NOT AS EXPECTED.", figures_text(claim), in_words(claim.expect),

@@ -1,4 +1,4 @@
-// What became of an experiment: its figures beside the published ones, its claims and thresholds (docs/experiments.md).
+// The outcome of an experiment: its figures and the published ones, its claims and thresholds (docs/experiments.md).
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace footprint {
 
-/// How a claim comes out, or is expected to.
+/// The verdict on a claim, measured or expected.
 enum class Verdict {
   reproduced,
   not_reproduced,
@@ -32,7 +32,7 @@ struct PublishedFigure {
   std::string unit;     ///< "fps", "s"; empty for errors and ratios
   double published = 0;
   std::optional<double> measured;
-  std::string note;  ///< how the paper measured, or why there is no figure here
+  std::string note;  ///< how the paper measured, or why it is not measured here
 };
 
 /// A figure that a claim was decided by.
@@ -42,7 +42,7 @@ struct ClaimFigure {
   bool at_noise_floor = false;  ///< an error that the reference's own noise explains
 };
 
-/// How an inequality came out.
+/// The outcome of a claim.
 struct ClaimOutcome {
   std::string name, text, inequality;
   Verdict expect = Verdict::reproduced;
@@ -71,10 +71,10 @@ struct ThresholdOutcome {
   std::string measure;
   double limit = 0;
   std::optional<double> measured;
-  std::string problem;  ///< why there is no figure, or empty
+  std::string problem;  ///< why it was not measured, or empty
   std::string place{};  ///< FILE:LINE of the threshold
 
-  [[nodiscard]] bool held() const { return measured && *measured <= limit; }
+  [[nodiscard]] bool passed() const { return measured && *measured <= limit; }
 };
 
 /// The part of results.json that an experiment adds.
@@ -92,7 +92,7 @@ struct ExperimentReport {
   [[nodiscard]] std::vector<std::string> shortfalls() const;
 };
 
-/// How a claim or a threshold fell short, in one line without its name.
+/// The fault of a claim or a threshold, in one line without its name.
 [[nodiscard]] std::string shortfall_of(const ClaimOutcome& claim);
 [[nodiscard]] std::string shortfall_of(const ThresholdOutcome& threshold);
 

@@ -21,7 +21,7 @@ TEST(ExperimentSection, WhatFellShortIsListedWithItsFigures) {
   EXPECT_EQ(lines[2], "threshold flicker(direct): at most 0.02000, measured no figure");
 }
 
-TEST(ExperimentSection, MeasuredStandsBesidePublished) {
+TEST(ExperimentSection, MeasuredIsNextToPublished) {
   const std::string text = experiment_markdown(*example_results().experiment);
   EXPECT_TRUE(says(text, "| Figure 4   | fps(toksvig)        |   125 fps |  400 fps |")) << text;
   EXPECT_TRUE(says(text, "300 s |      n/a | from the cache")) << text;

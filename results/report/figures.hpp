@@ -36,7 +36,7 @@ namespace footprint {
 /// The samples that a record is worth, where the curve of plain supersampling reaches its error.
 [[nodiscard]] std::optional<double> equivalent_spp(const Record& record);
 
-/// Where that curve ends before a record's error: "<1", ">64"; empty within the curve, "n/a"
+/// The end of that curve if it is before a record's error: "<1", ">64"; empty within the curve, "n/a"
 /// without an error or a curve.
 [[nodiscard]] std::string equivalent_bound(const Record& record);
 

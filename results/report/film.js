@@ -17,7 +17,7 @@
     return there.length ? there.reduce((sum, value) => sum + value, 0) / there.length : null;
   };
 
-  /** Where the path is in a frame, in words. */
+  /** The position on the path in a frame, in words. */
   const place = (frame) => {
     const {distance, degrees} = frames[frame];
     const where = film.way.path === 'zoom' ? `distance ${Number(distance.toPrecision(4))}`

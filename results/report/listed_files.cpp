@@ -29,7 +29,7 @@ nlohmann::json document_of(const std::filesystem::path& file) {
   return nlohmann::json::parse(stream, nullptr, false);
 }
 
-// Empty where there is no such text.
+// Empty if the text is missing.
 std::string text_in(const nlohmann::json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";

@@ -18,7 +18,7 @@ struct ListedReference {
   std::filesystem::path standard_error;  ///< EXR
 };
 
-/// What the results.json of FOLDER says of its reference FOLDER/images/NAME.exr; none where there is no such document,
+/// The entry of the reference FOLDER/images/NAME.exr in the results.json of FOLDER; none if that document is missing,
 /// or it does not list that image as a reference.
 [[nodiscard]] std::optional<ListedReference> listed_reference(const std::filesystem::path& reference);
 

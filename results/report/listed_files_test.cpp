@@ -1,4 +1,4 @@
-// What an earlier run's results.json lists is found in the documents of this program, and in no other file.
+// Files that an earlier run's results.json lists are found in documents of this program, and in no other file.
 #include "results/report/listed_files.hpp"
 
 #include <gtest/gtest.h>

@@ -31,7 +31,7 @@ void fields(JsonWriter& archive, const NdfRecord& value) {
   archive("images", value.images);
 }
 
-void fields(JsonWriter& archive, const NdfTruth& value) {
+void fields(JsonWriter& archive, const ExactNdfRecord& value) {
   archive("energy", value.energy);
   archive("expected_energy", value.expected_energy);
   archive("peak", value.peak);
@@ -76,7 +76,7 @@ void fields(JsonWriter& archive, const NdfResults& value) {
     pictures("scale", value.scale);
     pictures("strip", value.strip);
   });
-  archive("truth", value.truth);
+  archive("truth", value.exact);
   archive.group("methods", [&](JsonWriter& methods) {
     for (const NdfRecord& record : value.records) methods(record.method.c_str(), record);
   });
@@ -87,7 +87,7 @@ std::string ndf_json(const NdfResults& results) { return json_text(to_json_value
 
 std::string ndf_table(const NdfResults& results) {
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"truth", "0", "1", figure(results.truth.peak), fmt::format("{}", results.facets)});
+  rows.push_back({"truth", "0", "1", figure(results.exact.peak), fmt::format("{}", results.facets)});
   for (const NdfRecord& r : results.records) {
     rows.push_back({r.method, figure(r.l2), figure(r.energy), figure(r.peak), fmt::format("{}", r.lobes)});
   }

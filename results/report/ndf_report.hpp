@@ -17,22 +17,22 @@ inline constexpr std::string_view ndf_schema = "footprint-ndf/1";
 struct NdfImages {
   std::string density;     ///< EXR, per solid angle, over the x-y disc
   std::string picture;     ///< PNG of the same in false colour
-  std::string difference;  ///< PNG of |method - truth| on the same scale; empty for the truth
+  std::string difference;  ///< PNG of |method - exact| on the same scale; empty for the exact NDF
 };
 
-/// One method's effective NDF beside the true one. Figures that are not finite could not be measured.
+/// One method's effective NDF next to the exact one. Figures that are not finite could not be measured.
 struct NdfRecord {
   std::string method;  ///< as written
   std::map<std::string, std::variant<double, std::string>> options;
   double l2 = 0.0;      ///< relative L2 error over solid angle
-  double energy = 0.0;  ///< over the truth's
+  double energy = 0.0;  ///< over the exact NDF's
   double peak = 0.0;    ///< largest density, per steradian
   int lobes = 0;        ///< evaluated per pixel
   NdfImages images;
 };
 
-/// The true distribution.
-struct NdfTruth {
+/// The exact NDF of the footprint, `truth` in ndf.json.
+struct ExactNdfRecord {
   double energy = 0.0;           ///< its integral over the grid
   double expected_energy = 0.0;  ///< the same from the lobes' own integrals
   double peak = 0.0;
@@ -58,17 +58,17 @@ struct NdfResults {
   bool fine_enough = true;            ///< energy and expected_energy agree to `ndf_energy_tolerance`
   double scale = 0.0;                 ///< density at the light end of the false-colour scale
   std::string strip;                  ///< the picture of all
-  NdfTruth truth;
+  ExactNdfRecord exact;
   std::vector<NdfRecord> records;
   std::vector<std::string> notes;  ///< what was left out or supplied, one line each
 };
 
-/// How far the grid's integral of the truth may be from the lobes' own before the grid counts as too coarse.
+/// The grid is too coarse if its integral of the exact NDF differs from the lobes' own by a larger share.
 inline constexpr double ndf_energy_tolerance = 0.005;
 
 [[nodiscard]] std::string ndf_json(const NdfResults& results);
 
-/// One row per method, and the truth's.
+/// One row per method, and the exact NDF's.
 [[nodiscard]] std::string ndf_table(const NdfResults& results);
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // The results page: shows the data that the program filled in. Text reaches the page through textContent alone, so
-// that names may hold any character.
+// that names may contain any character.
 'use strict';
 
 const data = JSON.parse(document.getElementById('data').textContent);
@@ -58,7 +58,7 @@ const theme = () => (dark.matches && !paper.matches ? 'dark' : 'light');
 const seriesColor = (method) => palette[theme()][methods.indexOf(method) % palette.light.length];
 const styleValue = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// What the filters leave: members, of which the first is looked at closely, and of it the records at one distance.
+// The members that pass the filters, of which the first is shown in detail, and its records at one distance.
 const matching = () => runs.filter((run) => axes.every((axis) => (state.place[axis] ?? run.coordinates[axis]) === run.coordinates[axis]));
 const focus = () => matching()[0] ?? runs[0];
 const isVisible = (record) => !state.hidden.has(record.method);
@@ -197,7 +197,7 @@ function swatch(name, method, share) {
   return element('span', `verdict ${name}`, `${method} is closer: ${(100 * share).toFixed(1)}%`);
 }
 
-/** Where of the object which of two methods is closer. */
+/** The image of the pixels in which one of two methods is closer. */
 function showPair(pair) {
   const undecided = 1 - pair.closer[0] - pair.closer[1];
   byId('pair-view').hidden = false;
@@ -232,7 +232,7 @@ function showPairs() {
 
 // ---- plot
 
-/** What the plot shows: shading errors, or where no pixel is interior errors over all of the object. */
+/** The errors of the plot: shading errors, or where no pixel is interior errors over all of the object. */
 const plotted = (figures) => figures?.shading ?? figures?.normalized_color;
 
 const figure = (value) => (value >= 1000 ? String(Math.round(value)) : String(Number(value.toPrecision(3))));
@@ -284,7 +284,7 @@ const countLabels = {
   },
 };
 
-/** How a method's points look: its colour and its mark. */
+/** The colour and the mark of a method's points. */
 function seriesStyle(method, radius) {
   const color = seriesColor(method);
   return {
@@ -298,7 +298,7 @@ function seriesStyle(method, radius) {
   };
 }
 
-/** A method's records, one a member. */
+/** A method's records, one per member. */
 function methodSeries(method, own) {
   return {
     ...seriesStyle(method, own.length > 1 ? 5 : 7),
@@ -402,7 +402,7 @@ function tooltipText(item) {
   return `${name}${item.raw.place ? `, ${item.raw.place}` : ''}: error ${figure(y)} in ${figure(x)} ms`;
 }
 
-/** What stands on logarithmic axes at the chosen distance, and what cannot. */
+/** The points for logarithmic axes at the chosen distance, and those without a place on them. */
 function plotContent() {
   const positive = (time, error) => time > 0 && error > 0;
   const here = filtered().filter((r) => r.distance === state.distance);
@@ -506,7 +506,7 @@ function showTrends() {
 
 // ---- sparkle
 
-/** A histogram as the line of its shares; a bin without pixels lies where half a pixel would, at the axis' foot. */
+/** A histogram as the line of its shares; a bin without pixels is drawn as half a pixel, at the axis' foot. */
 function histogramSeries(label, counts, color, dash) {
   const pixels = counts.reduce((sum, count) => sum + count, 0);
   return {
@@ -655,7 +655,7 @@ function writeState() {
   history.replaceState(null, '', `#${words}`);
 }
 
-/** What no record has is passed over: a link may be of another run. */
+/** Ignores values that no record has, because a link may be of another run. */
 function readState() {
   const words = new URLSearchParams(location.hash.slice(1));
   const distance = Number(words.get('distance'));

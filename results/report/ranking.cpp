@@ -149,7 +149,7 @@ bool is_mostly_noise(double least_error, const std::optional<double>& noise_floo
   return noise_floor && *noise_floor > 0.5 * least_error;
 }
 
-// Of the errors that methods are ranked by, where there are some, else over all of the object.
+// Whether noise dominates: in the errors that rank methods if they exist, else in those over all of the object.
 bool has_not_converged(const DistanceRecords& records) {
   const auto is_noise = [](const Record& r) {
     if (!r.error) return false;
@@ -162,18 +162,18 @@ bool has_not_converged(const DistanceRecords& records) {
 
 bool has_few(const PixelCounts& pixels) { return pixels.interior < few_pixels && pixels.interior >= too_few_pixels; }
 
-// A sentence that starts with the distances for which `holds` is true; empty if there are none.
-template <typename Holds>
-std::string at_distances(const Results& results, Holds holds, std::string_view sentence) {
+// A sentence that starts with the distances for which `condition` is true; empty if there are none.
+template <typename Condition>
+std::string at_distances(const Results& results, Condition condition, std::string_view sentence) {
   std::vector<std::string> found;
   for (const double distance : distances_of(results)) {
-    if (holds(records_at(results, distance))) found.push_back(fmt::format("{:.4g}", distance));
+    if (condition(records_at(results, distance))) found.push_back(fmt::format("{:.4g}", distance));
   }
   if (found.empty()) return {};
   return fmt::format("At distance{} {} {}", found.size() == 1 ? "" : "s", enumerated(found), sentence);
 }
 
-// Of an animation: how many frames the reference has not converged in; empty without any.
+// A sentence on the frames of an animation in which the reference has not converged; empty without any.
 std::string noisy_frames(const Results& results) {
   std::set<int> all, noisy;
   for (const Record& record : results.records) {
@@ -241,7 +241,7 @@ std::vector<std::string> ranking_warnings(const Results& results) {
           "partly noise; give --noise, or raise --spp and --spp-max"),
       at_distances(
           results, [&](const auto& records) { return pixels(records).object == 0; },
-          "the object does not cover a whole pixel, so there is no error"),
+          "the object does not cover a whole pixel, so the error is unknown"),
       at_distances(
           results,
           [&](const auto& records) { return pixels(records).object > 0 && pixels(records).interior < too_few_pixels; },

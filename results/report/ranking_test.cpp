@@ -1,4 +1,4 @@
-// Who is ranked where, and that words claim no more than the figures bear.
+// The ranks of methods, and sentences that claim no more than the figures support.
 #include "results/report/ranking.hpp"
 
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ TEST(Ranking, WithoutAnErrorThereIsNone) {
   EXPECT_EQ(ranked_error(record), std::nullopt);
 }
 
-// Without an estimate of the noise nothing is told apart.
+// Without an estimate of the noise no difference is certain.
 TEST(Ranking, NeedsTheNoise) {
   Results results = run_of({method("a", 0.02), method("b", 0.9)});
   results.records[1].error->causes.shading_noise.reset();
@@ -129,7 +129,7 @@ TEST(RankingWarnings, TellAReferenceThatHasNotConverged) {
   EXPECT_EQ(warned(results), "");
 }
 
-// A few mirrors under small lights hold most of the radiance; what is clamped for display knows nothing of them.
+// A few mirrors under small lights have most of the radiance; measures of displayed values do not see them.
 TEST(RankingWarnings, LeaveVeryBrightPixelsToMeasuresOfLinearRadiance) {
   Results results = run_of({method("a", 0.02), method("b", 0.04)});
   results.reference.standard_errors = {11.0};

@@ -22,13 +22,13 @@ constexpr double sure_standard_errors = 3;  // beyond which a difference is none
 using Candidates = std::vector<Candidate>;
 using Indices = std::vector<std::size_t>;
 
-bool keeps(const Candidate& candidate, const Limits& limits) {
+bool passes(const Candidate& candidate, const Limits& limits) {
   return candidate.worst <= limits.max_error.value_or(std::numeric_limits<double>::infinity()) &&
          candidate.cost.median <= limits.max_cost.value_or(std::numeric_limits<double>::infinity()) &&
          candidate.bytes <= limits.max_bytes.value_or(std::numeric_limits<std::uint64_t>::max());
 }
 
-// By how much a limit is missed, as a factor.
+// The factor by which a limit is missed.
 double excess(const Candidate& candidate, const Limits& limits) {
   if (limits.max_error) return candidate.worst / *limits.max_error;
   if (limits.max_cost) return candidate.cost.median / *limits.max_cost;
@@ -133,27 +133,27 @@ bool cost_as_much(const Candidate& a, const Candidate& b) {
 
 Choice choose(const std::vector<Candidate>& candidates, const Limits& limits) {
   Choice choice;
-  Indices all, kept;
+  Indices all, passing;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     all.push_back(i);
-    if (keeps(candidates[i], limits)) kept.push_back(i);
+    if (passes(candidates[i], limits)) passing.push_back(i);
   }
   if (all.empty()) return choice;
   const auto error = [](const Candidate& c) { return c.error; };
   const auto cost = [](const Candidate& c) { return c.cost.median; };
-  if (kept.empty()) {
+  if (passing.empty()) {
     choice.nearest = least(candidates, all, [&](const Candidate& c) { return excess(c, limits); });
     return choice;
   }
   const bool by_cost = limits.max_error.has_value();
-  const std::size_t first = by_cost ? least(candidates, kept, cost) : least(candidates, kept, error);
-  const Indices group = alike(candidates, kept, first, by_cost);
+  const std::size_t first = by_cost ? least(candidates, passing, cost) : least(candidates, passing, error);
+  const Indices group = alike(candidates, passing, first, by_cost);
   std::size_t chosen = by_cost ? least(candidates, group, error) : least(candidates, group, cost);
-  const auto plain = std::ranges::find_if(kept, [&](std::size_t i) { return is_plain(candidates[i]); });
-  if (plain != kept.end() && !is_closer(candidates[chosen], candidates[*plain])) chosen = *plain;
+  const auto plain = std::ranges::find_if(passing, [&](std::size_t i) { return is_plain(candidates[i]); });
+  if (plain != passing.end() && !is_closer(candidates[chosen], candidates[*plain])) chosen = *plain;
   choice.chosen = chosen;
   // Candidates are tied if neither the group's measure nor the other one separates them.
-  std::ranges::copy_if(kept, std::back_inserter(choice.tied), [&](std::size_t i) {
+  std::ranges::copy_if(passing, std::back_inserter(choice.tied), [&](std::size_t i) {
     return i != chosen && cost_as_much(candidates[i], candidates[chosen]) &&
            !is_closer(candidates[i], candidates[chosen]) && !is_closer(candidates[chosen], candidates[i]);
   });
@@ -175,20 +175,20 @@ std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, co
   const auto is_over = [&](const Candidate& c) {
     return limits.max_cost && c.cost.median * (1.0 - cost_share) > *limits.max_cost;
   };
-  Indices kept, over;
+  Indices remaining, over;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
     const bool beaten = std::ranges::any_of(candidates, [&](const Candidate& c) { return beats(c, candidate); });
-    if (is_plain(candidate) || (!beaten && !is_over(candidate))) kept.push_back(i);
+    if (is_plain(candidate) || (!beaten && !is_over(candidate))) remaining.push_back(i);
     if (!is_plain(candidate) && !beaten && is_over(candidate)) over.push_back(i);
   }
-  // Of those over the limit of cost the cheapest that is more accurate than all within it: what a lower error costs.
+  // Also keep the cheapest over the limit that is more accurate than all within it: the price of a lower error.
   const auto error_of = [&](std::size_t i) { return candidates[i].error; };
-  const double least = kept.empty() ? INFINITY : error_of(*std::ranges::min_element(kept, {}, error_of));
+  const double least = remaining.empty() ? INFINITY : error_of(*std::ranges::min_element(remaining, {}, error_of));
   std::erase_if(over, [&](std::size_t i) { return error_of(i) >= least; });
   if (!over.empty())
-    kept.push_back(*std::ranges::min_element(over, {}, [&](std::size_t i) { return candidates[i].cost.median; }));
-  return kept;
+    remaining.push_back(*std::ranges::min_element(over, {}, [&](std::size_t i) { return candidates[i].cost.median; }));
+  return remaining;
 }
 
 std::string limits_text(const Limits& limits) {

@@ -31,7 +31,7 @@ struct Limits {
   std::optional<std::uint64_t> max_bytes;  ///< of the material: the best within it
 };
 
-/// What candidates come to. Indices are into the candidates.
+/// The choice among candidates. Indices are into the candidates.
 struct Choice {
   std::optional<std::size_t> chosen;  ///< none: none keeps the limit, or nothing was measured
   std::vector<std::size_t> tied;      ///< candidates that are as good: they differ within noise
@@ -44,18 +44,18 @@ struct Choice {
 /// unknown.
 [[nodiscard]] bool is_closer(const Candidate& a, const Candidate& b);
 
-/// Whether the spreads of their costs overlap: each one's median lies within the other's range, or the ranges touch it.
+/// Whether the spreads of their costs overlap: each one's median is within the other's range, or the ranges touch it.
 [[nodiscard]] bool cost_as_much(const Candidate& a, const Candidate& b);
 
 /// `direct` under the trilinear filter: no filtering at all.
 [[nodiscard]] bool is_plain(const Candidate& candidate);
 
-/// Which to take. Of candidates that keep the limit: with max_error the cheapest, of those that cost as much the best;
-/// else the best, of those that noise does not part the cheapest. Where that is no closer than plain `direct` beyond
-/// noise, and `direct` keeps the limit, it is `direct`.
+/// Chooses among the candidates that pass the limits. With max_error it takes the cheapest, among equal costs the most
+/// accurate. Otherwise it takes the most accurate, among errors that noise does not separate the cheapest. If that is
+/// not closer than plain `direct` beyond noise, and `direct` passes, it takes `direct`.
 [[nodiscard]] Choice choose(const std::vector<Candidate>& candidates, const Limits& limits);
 
-/// The candidates that could be chosen, whatever the limit, where errors are off by `error_share` of themselves and
+/// The candidates that could be chosen under any limit, if errors are off by `error_share` of themselves and
 /// costs by `cost_share`: those to which no other is better and cheaper (and, where bytes are limited, smaller) by more
 /// than that. Plain `direct` always is.
 [[nodiscard]] std::vector<std::size_t> contenders(const std::vector<Candidate>& candidates, const Limits& limits,

@@ -45,8 +45,8 @@ TEST(Choice, IsTheBestWithinACostOrSize) {
   EXPECT_EQ(chosen_of(front, {}), "tan_gmm");
 }
 
-// A limit holds at every distance, whatever the mean is.
-TEST(Choice, HoldsAnErrorAtEveryDistance) {
+// A limit applies at every distance, not only to the mean.
+TEST(Choice, LimitsTheErrorAtEveryDistance) {
   std::vector<Candidate> candidates = front;
   candidates[2].worst = 0.5;
   EXPECT_EQ(chosen_of(candidates, {.max_error = 0.12, .max_cost = {}, .max_bytes = {}}), "lean");
@@ -61,7 +61,7 @@ TEST(Choice, SaysWhatComesClosestWhereNoneKeepsTheLimit) {
 
 TEST(Choice, OfErrorsWithinNoiseIsTheCheapest) {
   std::vector<Candidate> candidates = front;
-  candidates[4].noise = 0.02;  // 0.05 and 0.08 are not told apart any more, 0.05 and 0.1 neither
+  candidates[4].noise = 0.02;  // 0.05 and 0.08 do not differ any more, 0.05 and 0.1 neither
   EXPECT_EQ(chosen_of(candidates, {}), "toksvig");
 }
 
@@ -108,13 +108,13 @@ TEST(Contenders, AreThoseThatNoneBeatsInErrorAndCost) {
   std::vector<Candidate> candidates = front;
   candidates.push_back(candidate("slow", 0.3, 9.0));
   candidates.push_back(candidate("near", 0.052, 4.1));
-  const auto kept = contenders(candidates, {}, 0.2, 0.1);
-  EXPECT_EQ(std::ranges::count(kept, 5U), 0);  // far behind
-  EXPECT_EQ(std::ranges::count(kept, 6U), 1);  // within the margins
-  EXPECT_EQ(std::ranges::count(kept, 0U), 1);  // direct, always
+  const auto found = contenders(candidates, {}, 0.2, 0.1);
+  EXPECT_EQ(std::ranges::count(found, 5U), 0);  // far behind
+  EXPECT_EQ(std::ranges::count(found, 6U), 1);  // within the margins
+  EXPECT_EQ(std::ranges::count(found, 0U), 1);  // direct, always
 }
 
-// What costs too much is not measured in full, but for the cheapest that has a lower error than all that do not.
+// Candidates over the cost limit are not measured in full, except the cheapest that beats all within it.
 TEST(Contenders, LeaveOutWhatIsOverALimitOfCost) {
   const std::vector<Candidate> candidates{candidate("direct", 0.3, 1.0), candidate("a", 0.1, 1.9),
                                           candidate("b", 0.05, 2.4), candidate("c", 0.04, 2.9),
@@ -125,8 +125,8 @@ TEST(Contenders, LeaveOutWhatIsOverALimitOfCost) {
   EXPECT_EQ(contenders(candidates, {}, 0.1, 0.1), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
 }
 
-// Whatever the limit, what is chosen of all is chosen of the contenders, where errors and costs are exact.
-TEST(Contenders, HoldTheChoice) {
+// Under any limit the choice among all is also that among the contenders, if errors and costs are exact.
+TEST(Contenders, IncludeTheChoice) {
   std::vector<Candidate> candidates = front;
   for (int i = 0; i < 40; ++i)
     candidates.push_back(candidate("m" + std::to_string(i), 0.03 + 0.011 * ((i * 7) % 17), 1.2 + 0.13 * ((i * 5) % 23),

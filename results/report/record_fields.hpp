@@ -322,7 +322,7 @@ void fields(Archive& archive, Is<ThresholdOutcome> auto& value) {
   archive("measure", value.measure);
   archive("limit", value.limit);
   archive("measured", value.measured);
-  archive.derived("held", value.held());
+  archive.derived("held", value.passed());
   archive("problem", value.problem);
 }
 

@@ -1,4 +1,4 @@
-// What a run measured, as plain values: the content of results.json (docs/results.md), free of GL and of files.
+// The measurements of a run as plain values: the content of results.json (docs/results.md), free of GL and of files.
 #pragma once
 
 #include <array>
@@ -15,16 +15,16 @@
 
 namespace footprint {
 
-/// Where an error stands on the measured curve of plain supersampling.
+/// The position of an error on the measured curve of plain supersampling.
 enum class CurveSide {
   within,
   below,  ///< worse than the whole curve
   above   ///< better than its last point
 };
 
-/// What an error is worth in plain supersampling.
+/// The number of plain samples with the same error.
 struct EquivalentSamples {
-  double spp = 1;  ///< samples a pixel; beside the curve those of its end: fewer (below) or more (above) than that
+  double spp = 1;  ///< samples per pixel; beside the curve those of its end: fewer (below) or more (above) than that
   CurveSide side = CurveSide::within;
 };
 
@@ -51,15 +51,15 @@ struct TimeRatio {
   double median = 0, low = 0, high = 0;
 };
 
-/// What an error is made of: normalised colour errors over parts of the object's pixels; docs/metrics.md. None: no such
-/// pixel, or what tells it was not drawn.
+/// The causes of an error: normalised colour errors over parts of the object's pixels; docs/metrics.md. None: no such
+/// pixel, or its image was not rendered.
 struct ErrorCauses {
   std::optional<double> shading;        ///< of the picture, over interior pixels: what methods are ranked by
   std::optional<double> shading_floor;  ///< what the reference's own noise causes there
   std::optional<double> shading_noise;  ///< standard error of `shading`, of the reference's noise
   std::optional<double> edges;          ///< of the picture, over all other object pixels
   std::optional<double> filter;         ///< of `exact` under the same footprint filter, over the bound's pixels
-  std::optional<double> method;         ///< of the picture against that of `exact`, likewise
+  std::optional<double> method;         ///< of the picture against that of `exact`, over the same
   std::optional<double> light;          ///< of the lookup of an environment by lobes, over the pixels for light
 };
 
@@ -94,7 +94,7 @@ struct PartFlicker {
   double mean = 0, p99 = 0;
 };
 
-/// What flicker is made of, as ErrorCauses has it of errors. None: no such pixel in both frames, or what tells it was
+/// The causes of flicker, as ErrorCauses has them of errors. None: no such pixel in both frames, or its image was
 /// not drawn.
 struct FlickerCauses {
   std::optional<PartFlicker> shading;  ///< over pixels that are interior in both frames
@@ -103,7 +103,7 @@ struct FlickerCauses {
   std::optional<PartFlicker> method;   ///< of the picture against that of `exact`, over the same
 };
 
-/// How much more or otherwise a picture changes from the frame before than the reference does; docs/metrics.md.
+/// The change of an image from frame to frame that the reference does not have; docs/metrics.md.
 struct Flicker {
   double mean = 0;                    ///< over the object's pixels, 0 to 2
   double p99 = 0;                     ///< 99th percentile over them
@@ -120,11 +120,11 @@ struct OtherReference {
 
 /// Pictures of one record, as paths relative to the output folder.
 struct RecordImages {
-  std::string color;           ///< EXR; a .png of the same stem lies beside it
-  std::string reference;       ///< EXR, likewise
+  std::string color;           ///< EXR, with a .png of the same stem
+  std::string reference;       ///< EXR, with a .png
   std::string error;           ///< PNG, false colour on the scale of its distance
   std::string error_shared;    ///< the same on the scale that all distances share
-  std::string interior;        ///< EXR, white where a pixel is interior; a .png likewise
+  std::string interior;        ///< EXR, white where a pixel is interior, with a .png
   std::string standard_error;  ///< EXR, the reference's own in each pixel and channel
 };
 
@@ -154,7 +154,7 @@ struct GpuCost {
   double loop_rounds = 1;        ///< of the loops that the compiler did not unroll
   int instructions = 0, registers = 0, waves = 0, shader_bytes = 0, scratch_bytes = 0;
   double compile_seconds = 0;
-  std::optional<std::string> failure;  ///< why there is no estimate; all figures are 0 then
+  std::optional<std::string> failure;  ///< why the estimate is missing; all figures are 0 then
 };
 
 /// One method in one view.
@@ -169,10 +169,10 @@ struct Record {
   std::optional<std::string> failure = {};  ///< why the method has no figures here; none: it was drawn and measured
   PixelCounts pixels;
   std::optional<RecordError> error;              ///< none: the object covers no whole pixel, or there is a failure
-  std::optional<EquivalentSamples> equivalent;   ///< none: there is no error, or no curve
-  std::vector<OtherReference> other_references;  ///< none where there is no error
+  std::optional<EquivalentSamples> equivalent;   ///< none: no error, or no curve
+  std::vector<OtherReference> other_references;  ///< none without an error
   std::optional<Flicker> flicker;                ///< none: no frame of a path, or its first
-  /// Exposed luminance above 0.8, mean over the object's pixels. None: there is no error.
+  /// Exposed luminance above 0.8, mean over the object's pixels. None: no error.
   std::optional<double> highlight_energy = {}, reference_highlight_energy = {};
   std::string node = {};  ///< the machine that the times below were taken on
   FrameTime frame_ms;
@@ -183,7 +183,7 @@ struct Record {
   std::optional<double> fetches;         ///< texture lookups per pixel, mean over the object; none: not counted
   std::optional<double> lobes;           ///< lobes per pixel over all lights, mean over the object; none: not counted
   std::vector<GpuCost> gpu_costs = {};   ///< estimates for the GPUs of the run's settings
-  std::vector<MaterialError> materials;  ///< in the order of the scene; empty where the run does not tell them apart
+  std::vector<MaterialError> materials;  ///< in the order of the scene; empty if the run does not separate them
   double precompute_seconds = 0;
   std::uint64_t precompute_bytes = 0;
   std::optional<double> precompute_bytes_per_texel;  ///< over the finest level's texels; none: no texture
@@ -199,7 +199,7 @@ struct MethodPair {
   std::array<std::string, 2> methods;  ///< as written
   std::array<double, 2> closer{};  ///< share of interior pixels in which that one is closer to the reference by more
                                    ///< than the reference's noise explains; in the rest noise decides
-  /// The same over the interior pixels of each material; empty where the run does not tell them apart.
+  /// The same over the interior pixels of each material; empty if the run does not separate them.
   std::vector<std::array<double, 2>> materials{};
   std::string picture;  ///< of that over the object, PNG: blue the first, orange the second, grey neither
 };
@@ -214,7 +214,7 @@ struct SupersamplingPoint {
   std::string node = {};  ///< the machine that it was timed on
 };
 
-/// What stands at the top of a distance's false-colour pictures.
+/// The upper end of the scale of a distance's false-colour images.
 struct ErrorScale {
   double distance = 1;
   double error = 0;  ///< normalised colour error
@@ -225,13 +225,13 @@ struct FootprintNdf {
   std::string footprint;  ///< its name
   std::string method;     ///< as written
   double l2 = 0;          ///< relative L2 error over solid angle
-  double energy = 0;      ///< over the truth's
+  double energy = 0;      ///< over the exact NDF's
   double peak = 0;        ///< largest density, per steradian
-  int lobes = 0;          ///< evaluated a pixel
-  std::string picture;    ///< of all methods and the truth, PNG, from the output folder
+  int lobes = 0;          ///< evaluated per pixel
+  std::string picture;    ///< of all methods and the exact NDF, PNG, from the output folder
 };
 
-/// A figure of a method that no picture shows, as an experiment asks for it by name.
+/// A figure of a method that no image shows, by its name in an experiment.
 struct QuantityFigure {
   std::string name;      ///< in the experiment
   std::string method;    ///< as written
@@ -267,11 +267,11 @@ struct ReferenceInfo {
   /// In each view: root mean square of the per-pixel standard error over mean radiance; none: unknown.
   std::vector<std::optional<double>> standard_errors = {};
   std::optional<std::string> environment = {};  ///< sampled or dense; none: the scene has no environment
-  double samples = 0;  ///< mean samples a pixel over all distances: `spp`, and more where the noise asked for it
+  double samples = 0;  ///< mean samples per pixel over all distances: `spp`, and more if the noise needs them
   double seconds = 0;  ///< that its pictures took, all distances together
 };
 
-/// What the medians of frame times are over.
+/// The repeats behind the medians of frame times.
 struct TimingInfo {
   int frames = 0;     ///< of each method and distance in each process, those of all methods in turn
   int processes = 0;  ///< one after the other
@@ -283,7 +283,7 @@ struct AnimationWay {
   std::optional<std::array<double, 3>> axis;  ///< of the rotation, unit, in world space; none: nothing turns
 };
 
-/// Where a member of an experiment's [matrix] stands: each axis with its value, as the file writes them.
+/// The coordinates of a member of a [matrix]: each axis with its value, as the file writes them.
 using Coordinates = std::vector<std::pair<std::string, std::string>>;
 
 /// A whole run.
@@ -294,13 +294,13 @@ struct Results {
   ReferenceInfo reference;
   std::string footprint;  ///< the footprint filter, as parse_footprint_filter reads it
   TimingInfo timing;
-  std::optional<AnimationWay> way = {};  ///< none: the run is no animation
-  std::optional<std::string> film = {};  ///< video of its frames, from the output folder; none: none was asked for
+  std::optional<AnimationWay> way = {};  ///< none: not an animation
+  std::optional<std::string> film = {};  ///< video of its frames, from the output folder; none: not requested
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
   std::vector<MethodPair> pairs;               ///< every two methods of a distance
   std::vector<FootprintNdf> ndf;               ///< empty where no footprint was looked into
-  std::vector<QuantityFigure> quantities;      ///< empty where none was asked for
+  std::vector<QuantityFigure> quantities;      ///< empty if none was requested
   std::optional<ExperimentReport> experiment;  ///< none: a plain comparison
   Coordinates coordinates{};                   ///< in the matrix that it is a member of; empty: of none
   double error_scale = 0;                      ///< at the top of the false-colour pictures on the shared scale

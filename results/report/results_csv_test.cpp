@@ -39,7 +39,7 @@ std::vector<Line> read_csv(const std::string& text) {
       field += text[i];
     }
   }
-  lines.pop_back();  // what stands after the last line end: nothing
+  lines.pop_back();  // the empty text after the last line end
   return lines;
 }
 

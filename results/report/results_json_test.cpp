@@ -1,4 +1,4 @@
-// results.json: its field names, and every kind of value at its place. schema_test.py holds the whole document.
+// results.json: its field names, and every kind of value at its place. schema_test.py checks the whole document.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -146,7 +146,7 @@ TEST(ResultsJson, NamesOfAnyBytesSurvive) {
   EXPECT_EQ(document["records"][1]["options"]["a/b~c"], "=;\"");
 }
 
-TEST(ResultsJson, WhatASampleCountIsBoundByStandsBesideIt) {
+TEST(ResultsJson, TheBoundOfASampleCountIsNextToIt) {
   Results results = example_results();
   results.records[0].equivalent = EquivalentSamples{1, CurveSide::below};
   results.records[1].equivalent = EquivalentSamples{64, CurveSide::above};

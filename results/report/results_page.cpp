@@ -41,7 +41,7 @@ Json scale_colors() {
   return list;
 }
 
-/// Whether the record's frames are shorter than all others of its distance, whatever the spread.
+/// Whether the record's frames are shorter than all others of its distance, for any spread.
 bool is_fastest(const Record& record, const DistanceRecords& records) {
   return records.size() > 1 && std::ranges::all_of(records, [&](const Record& other) {
            return &other == &record || record.frame_ms.p90 < other.frame_ms.minimum;
@@ -94,7 +94,7 @@ Json display(const Record& record, const Json& json, const DistanceRecords& reco
   return cells;
 }
 
-/// What was found at a distance, and the scale of its error pictures.
+/// The findings at a distance, and the scale of its error images.
 Json distance_json(const Results& results, double distance) {
   const auto scale = std::ranges::find(results.error_scales, distance, &ErrorScale::distance);
   const double top = scale == results.error_scales.end() ? results.error_scale : scale->error;
@@ -104,7 +104,7 @@ Json distance_json(const Results& results, double distance) {
           {"scale_top", error_text(top)}};
 }
 
-// What the page shows of a run; `folder` is where its pictures start from, below the page's own.
+// The content of the page for a run; `folder` is that of its images, below the page's own.
 Json run_json(const Results& results, const std::string& folder) {
   Json head = Json::array();
   for (const Provenance& line : provenance(results)) head.push_back({{"label", line.label}, {"value", line.value}});

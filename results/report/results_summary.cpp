@@ -19,7 +19,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// Of one frame of `direct`, whether or not it is a row: it is the first point of the supersampling curve.
+// The error of one frame of `direct`, even if it is not a row: it is the first point of the supersampling curve.
 std::optional<double> error_of_direct(const Results& results, double distance) {
   for (const SupersamplingPoint& point : results.supersampling) {
     if (point.distance == distance && point.spp == 1) return point.shading;
@@ -138,7 +138,7 @@ std::string table(const Results& results) {
   return aligned(rows);
 }
 
-// What all rows share.
+// The line above the table: the values that all rows share.
 std::string head(const Results& results) {
   const Record& first = results.records.front();
   return fmt::format("{}: {}x{}, footprint filter {}, reference {} samples per pixel\n", results.scene.name,

@@ -1,4 +1,4 @@
-// What a terminal shows: the answer, and a table that starts with the least error.
+// The output of a terminal: the answer, and a table that starts with the least error.
 #include "results/report/report.hpp"
 
 #include <gtest/gtest.h>

@@ -66,7 +66,7 @@ TEST(ResultsTable, LongMethodNamesSplitIt) {
   }
 }
 
-TEST(ResultsTable, HoldsEveryTwoMethodsPixelByPixel) {
+TEST(ResultsTable, ComparesEveryTwoMethodsPixelByPixel) {
   Results results = example_results();
   const std::string table = results_table(results);
   EXPECT_TRUE(says(table, "| % of pixels closer than | direct | naive_mip | toksvig | toksvig:storage=unorm8 |"));
@@ -88,7 +88,7 @@ TEST(ResultsTable, SaysWhatWasMeasuredAndUnderWhatConditions) {
   EXPECT_EQ(lines_of(table).front(), "# ClearCoatTest");
 }
 
-// What bears on the ranking comes before any figure.
+// Warnings on the ranking come before any figure.
 TEST(ResultsTable, WarningsStandAboveIt) {
   const std::string table = results_table(example_results());
   const std::size_t warnings = table.find("## Caveats");

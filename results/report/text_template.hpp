@@ -14,7 +14,7 @@ namespace footprint {
 /// `text` for use as HTML content or in a quoted attribute.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
-/// JSON text for use inside a <script> element: `<` becomes \u003c, which stands only in strings, so that no
+/// JSON text for use inside a <script> element: `<`, which is only in strings, becomes \u003c, so that no
 /// `</script>` or `<!--` ends the element early.
 [[nodiscard]] std::string script_escaped(std::string_view json);
 

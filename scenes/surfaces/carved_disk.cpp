@@ -161,7 +161,7 @@ Height ring_at(const Polar& at, const Hand& hand) {
 
 Height carving(const HeightPoint& at, const Hand& hand) {
   const Height squared = at.x * at.x + at.y * at.y;
-  // The middle has no direction outwards; beyond the rim there is no disk.
+  // The middle has no direction outwards; beyond the rim is nothing.
   if (squared.value() < 1e-12 || squared.value() >= 1.0) return Height{0.0};
   return ring_at(Polar{sqrt(squared), atan2(at.y, at.x)}, hand) + hand.hammering(at);
 }
@@ -189,14 +189,14 @@ Mesh mesh(const SurfaceSettings& settings) {
   };
   // A grid bent into rings, whose innermost row is one point: the triangles there that have no area are left out.
   Mesh mesh = grid_mesh(spokes, rings, [&](const glm::dvec2& st) { return vertex_at(1.0 - st.y, tau * st.x); });
-  std::vector<std::uint32_t> kept;
+  std::vector<std::uint32_t> remaining;
   const auto innermost = static_cast<std::uint32_t>(rings * (spokes + 1));
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const auto triangle = std::span(mesh.indices).subspan(i, 3);
     if (std::ranges::count_if(triangle, [&](std::uint32_t index) { return index >= innermost; }) > 1) continue;
-    kept.insert(kept.end(), triangle.begin(), triangle.end());
+    remaining.insert(remaining.end(), triangle.begin(), triangle.end());
   }
-  mesh.indices = std::move(kept);
+  mesh.indices = std::move(remaining);
   mesh.name = "disk";
   return mesh;
 }

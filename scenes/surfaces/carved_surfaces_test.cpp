@@ -82,8 +82,8 @@ TEST(CarvedDisk, IsFlatBeyondTheRimAndWithoutDepth) {
   }
 }
 
-// The ornament is cut by hand: without unevenness it is the same after a quarter turn (but where a texel lies right on
-// a crease), and with it, it is not.
+// The ornament is cut by hand: without unevenness it is the same after a quarter turn (except where a texel is exactly
+// on a crease), and with it, it is not.
 TEST(CarvedDisk, RepeatsAroundTheMiddleButForTheHand) {
   const auto share_differing = [](const Image& map) {
     int differing = 0;

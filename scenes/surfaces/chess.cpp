@@ -138,7 +138,7 @@ struct Rib {
   double half_depth;  ///< along z
 };
 
-/// What a uniform cubic B-spline over the ribs makes of one of their numbers, `at` 0 to 1.
+/// The uniform cubic B-spline of one number of the ribs, `at` 0 to 1.
 Height spline(std::span<const Rib> ribs, double Rib::*number, const Height& at) {
   const auto spans = static_cast<double>(ribs.size() - 3);
   const auto first = static_cast<std::size_t>(std::clamp(std::floor(spans * at.value()), 0.0, spans - 1.0));

@@ -24,7 +24,7 @@ constexpr double dome_radius = 0.56;
 /// The outer share of the disc that is bent down to an edge.
 constexpr double lip = 0.9;
 
-/// What hammering left on each scale: its tilt, as the x and y of its normal. Rows are twice as many as columns.
+/// The dents of hammering on each scale: its tilt, as the x and y of its normal. Rows are twice as many as columns.
 using Tilts = WrappedGrid<glm::dvec2>;
 
 Tilts hammer(int columns, double unevenness, std::uint32_t seed) {

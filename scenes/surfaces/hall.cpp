@@ -341,7 +341,7 @@ const std::vector<std::string> dyes{"red", "green", "blue"};
 /// Metres: the height of the cloth's rail and of its lower edge, and its gathered width at the rail.
 constexpr double rail = 3.55, edge = 1.15, width = 1.9;
 
-/// How much wider the cloth is than its curtain, and how wide the map is on it.
+/// The width of the cloth over that of its curtain, and the width of the map on it.
 constexpr double fullness = 1.6, map_size = 1.5;
 
 std::size_t dye_of(const SurfaceSettings& settings) {

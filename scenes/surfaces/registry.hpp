@@ -1,4 +1,4 @@
-// The procedural surfaces that this build holds. CMake writes the list: one line a surface in CMakeLists.txt.
+// The procedural surfaces of this build. CMake writes the list from CMakeLists.txt, one line per surface.
 #pragma once
 
 #include <span>

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-// By the divergence theorem: right for closed meshes alone.
+// The volume by the divergence theorem, for closed meshes only.
 double volume(const Mesh& mesh) {
   double sum = 0.0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -65,7 +65,7 @@ TEST_P(Chessman, HasASoundMesh) {
   testing::expect_map_along_tangents(mesh_);
 }
 
-TEST_P(Chessman, StandsOnItsSquare) {
+TEST_P(Chessman, IsOnItsSquare) {
   float lowest = 1.0F, widest = 0.0F;
   for (const Vertex& vertex : mesh_.vertices) {
     lowest = std::min(lowest, vertex.position.y);

@@ -1,4 +1,4 @@
-// What holds for every surface: unit normals, seeds, threads, sizes, tiles, statistics, meshes.
+// Checks of every surface: unit normals, seeds, threads, sizes, tiles, statistics, meshes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

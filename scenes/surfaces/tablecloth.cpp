@@ -17,12 +17,12 @@ constexpr double half_side = 0.7, table_radius = 0.5, table_height = 0.74;
 constexpr double rim = 0.025;
 constexpr double rim_length = rim * std::numbers::pi / 2.0;
 
-/// Of the normal map: cells along its width, and slope.
+/// The weave of the normal map: cells along its width, and slope.
 constexpr std::array<Octave, 5> octaves{{{10, 0.04}, {27, 0.05}, {71, 0.08}, {170, 0.18}, {340, 0.3}}};
 
 Image normals(const SurfaceSettings& settings) { return relief_normals(settings, octaves); }
 
-/// How the cloth falls around the table.
+/// The folds of the cloth around the table.
 class Drape {
  public:
   explicit Drape(std::uint32_t seed) : Drape(std::mt19937_64(seed)) {}

@@ -14,13 +14,13 @@ namespace {
 
 using testing::make_map;
 
-/// The share of texels for which `holds`.
-double share(const Image& map, const std::function<bool(const glm::dvec3&)>& holds) {
+/// The share of texels for which `condition` is true.
+double share(const Image& map, const std::function<bool(const glm::dvec3&)>& condition) {
   std::size_t count = 0;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const auto texel = map.at(x, y);
-      count += holds(glm::dvec3{texel[0], texel[1], texel[2]}) ? 1U : 0U;
+      count += condition(glm::dvec3{texel[0], texel[1], texel[2]}) ? 1U : 0U;
     }
   }
   return static_cast<double>(count) / static_cast<double>(map.texel_count());
@@ -153,7 +153,7 @@ TEST(CarPaint, HasFlakesOfABeckmannDistribution) {
   }
 }
 
-TEST(CarPaint, IsFlatPaintWithoutFlakesAndHasTheShareAskedFor) {
+TEST(CarPaint, IsFlatPaintWithoutFlakesAndHasTheRequestedShare) {
   EXPECT_EQ(share(make_map("car_paint", 64, {{"coverage", "0"}, {"peel", "0"}}), is_flat), 1.0);
   for (const double coverage : {0.25, 0.5, 0.75}) {
     const Image map = make_map("car_paint", 512, {{"coverage", std::to_string(coverage)}, {"peel", "0"}});
@@ -161,7 +161,7 @@ TEST(CarPaint, IsFlatPaintWithoutFlakesAndHasTheShareAskedFor) {
   }
 }
 
-// Every flake is flat and a few texels wide: where the map has four texels a cell most neighbours have one normal.
+// Every flake is flat and a few texels wide: where the map has four texels per cell most neighbours have one normal.
 TEST(CarPaint, HasFlatFlakesSeveralTexelsWide) {
   const Image map = make_map("car_paint", 512, {{"coverage", "1"}, {"flakes", "128"}});
   int alike = 0;

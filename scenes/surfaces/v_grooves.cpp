@@ -9,7 +9,7 @@
 namespace footprint::surfaces::v_grooves {
 namespace {
 
-/// Where the grooves end along x, rising to 1; widths within 1 - `variation` to 1 + `variation` of their mean.
+/// The ends of the grooves along x, rising to 1; widths within 1 - `variation` to 1 + `variation` of their mean.
 std::vector<double> groove_ends(int count, double variation, std::uint32_t seed) {
   std::mt19937_64 random(seed);
   std::vector<double> ends;

@@ -75,7 +75,7 @@ TEST(Pillow, HasTwoThreadsOfDifferentGloss) {
   EXPECT_LT(share, 0.6);
 }
 
-TEST(Tablecloth, LiesOnItsTableAndUnfoldsWithoutOverlap) {
+TEST(Tablecloth, IsOnItsTableAndUnfoldsWithoutOverlap) {
   const Mesh mesh = mesh_of("tablecloth");
   expect_unfolded(mesh, 0.99);
   double lowest = 1.0, highest = 0.0;

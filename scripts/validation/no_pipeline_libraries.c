@@ -34,23 +34,23 @@ static VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info, con
 
 static VkResult VKAPI_CALL device_extensions(VkPhysicalDevice device, const char* layer, uint32_t* count,
                                              VkExtensionProperties* out) {
-  uint32_t all = 0, kept = 0;
+  uint32_t all = 0, passed = 0;
   VkResult result = next_extensions(device, layer, &all, NULL);
   if (result != VK_SUCCESS) return result;
   VkExtensionProperties* list = calloc(all + 1, sizeof *list);
   if (list == NULL) return VK_ERROR_OUT_OF_HOST_MEMORY;
   result = next_extensions(device, layer, &all, list);
   for (uint32_t i = 0; i < all; ++i) {
-    if (strcmp(list[i].extensionName, VK_EXT_GRAPHICS_PIPELINE_LIBRARY_EXTENSION_NAME) != 0) list[kept++] = list[i];
+    if (strcmp(list[i].extensionName, VK_EXT_GRAPHICS_PIPELINE_LIBRARY_EXTENSION_NAME) != 0) list[passed++] = list[i];
   }
-  const uint32_t room = out == NULL ? kept : *count;
-  *count = room < kept ? room : kept;
+  const uint32_t room = out == NULL ? passed : *count;
+  *count = room < passed ? room : passed;
   if (out != NULL) memcpy(out, list, *count * sizeof *list);
   free(list);
-  return result == VK_SUCCESS && *count < kept ? VK_INCOMPLETE : result;
+  return result == VK_SUCCESS && *count < passed ? VK_INCOMPLETE : result;
 }
 
-// What the loader looks for.
+// The entry points that the loader looks for.
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance, const char* name) {
   if (strcmp(name, "vkGetInstanceProcAddr") == 0) return (PFN_vkVoidFunction)vkGetInstanceProcAddr;
   if (strcmp(name, "vkCreateInstance") == 0) return (PFN_vkVoidFunction)create_instance;

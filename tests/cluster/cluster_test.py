@@ -19,7 +19,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "end_to_end"))
 
-from kept_runs import ZOOM, KeptRunTest, finished, outcome  # noqa: E402
+from kept_runs import ZOOM, FinishedWorkTest, finished, outcome  # noqa: E402
 from one_host_slurm import OneHostSlurm, missing_programs  # noqa: E402
 from whole_runs import PROGRAM, SOURCE  # noqa: E402
 
@@ -31,7 +31,7 @@ SKIPPED = 77
 
 
 def process_of(part):
-    """The id of the program that works on a part, told by the part's own folder; none while there is none."""
+    """The id of the program that works on a part, found by the part's own folder; none if it is not running."""
     for entry in pathlib.Path("/proc").iterdir():
         try:
             words = (entry / "cmdline").read_bytes().split(b"\0") if entry.name.isdigit() else []
@@ -43,7 +43,7 @@ def process_of(part):
 
 
 def state_of(process):
-    """Slurm's tasks are nobody's children here: R, S, T where it is stopped, Z where it is dead, none where it is gone."""
+    """Slurm's tasks are not children of this process: R, S, T where it is stopped, Z where it is dead, none where it is gone."""
     try:
         return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0]
     except OSError:
@@ -51,7 +51,7 @@ def state_of(process):
 
 
 def kill_unless_finished(process, part):
-    """Kills it in its middle: held first, so that what it has finished is looked at while it does nothing more. Whether it
+    """Kills it in its middle: stops it first, so that its finished work is inspected while it does nothing more. Whether it
     was killed; one that has written its part, or died meanwhile, goes on as it would."""
     try:
         os.kill(process, signal.SIGSTOP)
@@ -64,7 +64,7 @@ def kill_unless_finished(process, part):
         return False
 
 
-class Sweep(KeptRunTest):
+class Sweep(FinishedWorkTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -118,16 +118,16 @@ class Sweep(KeptRunTest):
         return None
 
     def start_again_at_once(self, job, part, restarts):
-        """Slurm lets two minutes pass before what was requeued starts again; here there is nobody to be spared."""
+        """Slurm lets two minutes pass before what was requeued starts again; here the wait protects no user."""
         task = f"{job}_{part.name}"
         end = time.monotonic() + 60
         shown = ""
         while not (f"Restarts={restarts}" in shown and "JobState=PENDING" in shown):
             self.assertLess(time.monotonic(), end, f"it was not requeued: {shown}")
             time.sleep(0.1)
-            shown = self.slurm.ask("scontrol", "show", "job", task)
+            shown = self.slurm.query("scontrol", "show", "job", task)
         time.sleep(2)  # until the node has done with the start that was ended, which those two minutes are for
-        self.slurm.ask("scontrol", "update", f"JobId={task}", "StartTime=now")
+        self.slurm.query("scontrol", "update", f"JobId={task}", "StartTime=now")
 
     def test_a_killed_task_is_requeued_and_nothing_is_lost(self):
         whole, out = self.folder / "whole", self.folder / "swept"

@@ -1,6 +1,6 @@
 """A real Slurm of this one host, started by hand for a test: munged, slurmctld and slurmd, no systemd, no database.
 
-Everything lies in a folder of its own and listens on the loopback interface alone; what was started is ended by its id.
+Everything is in a folder of its own and listens on the loopback interface alone; what was started is ended by its id.
 """
 
 import contextlib
@@ -90,7 +90,7 @@ class OneHostSlurm:
             self.wait("munged", (self.folder / "munge.socket").exists)
             self.start("slurmctld", "-D", "-f", self.folder / "slurm.conf")
             self.start("slurmd", "-D", "-f", self.folder / "slurm.conf")
-            self.wait("slurmd", lambda: "State=IDLE" in self.ask("scontrol", "show", "node"))
+            self.wait("slurmd", lambda: "State=IDLE" in self.query("scontrol", "show", "node"))
         except BaseException:
             self.__exit__()
             raise
@@ -112,7 +112,7 @@ class OneHostSlurm:
             self.processes.append(subprocess.Popen([find(program), *map(str, arguments)], stdout=log, stderr=log,
                                                    stdin=subprocess.DEVNULL, env=self.environment))
 
-    def ask(self, program, *arguments):
+    def query(self, program, *arguments):
         done = subprocess.run([find(program), *arguments], capture_output=True, text=True, env=self.environment, check=False)
         return done.stdout
 

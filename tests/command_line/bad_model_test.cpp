@@ -19,7 +19,7 @@ std::map<std::string, std::string> with_buffer_file(int bytes) {
   return {{"quad.gltf", document.dump()}, {"quad.bin", data}};
 }
 
-// The quad's buffer as a data URI that holds less than the document says.
+// The quad's buffer as a data URI that has fewer bytes than the document says.
 std::string cut_data_uri() {
   json document = json::parse(make_quad().text());
   document["buffers"][0]["byteLength"] = document["buffers"][0]["byteLength"].get<int>() + 8;

@@ -37,8 +37,7 @@ std::vector<Case> scenes() {
       row("LobesBesideAMap", {"scene.toml:7: ", "`kappa` in [maps] excludes [[brdf.lobe]]"},
           "[plane]\n[brdf]\ndistribution = \"vmf\"\n[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 128\n"
           "[maps.kappa]\nfile = \"kappa.exr\"\n"),
-      row("MissingMap", {"scene.toml, ", "missing.png: there is no such file"},
-          "[plane]\nnormal_map = \"missing.png\"\n"),
+      row("MissingMap", {"scene.toml, ", "missing.png: no such file"}, "[plane]\nnormal_map = \"missing.png\"\n"),
   };
 }
 

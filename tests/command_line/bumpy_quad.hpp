@@ -16,7 +16,7 @@ namespace footprint::test {
 [[nodiscard]] nlohmann::json& primitive_of(GltfBuilder& quad);
 
 /// An RGB picture of 8 bits a channel as a PNG file; `rows` are its bytes, each row after a zero. The header says
-/// `width` x `height` whatever they hold.
+/// `width` x `height` for any content.
 [[nodiscard]] std::string png_text(std::uint32_t width, std::uint32_t height, std::string_view rows);
 
 /// A normal map of 2 x 2 texels, tilted four ways.

@@ -145,7 +145,7 @@ const std::vector<Case> wrong_values{
 const std::string model = "clear_coat";
 const std::string model_file = "/usr/share/assimp/models/glTF2/ClearCoat-glTF/ClearCoatTest.gltf";
 
-// No EGL driver, and a file that is no library in the place of OSMesa's.
+// No EGL driver, and a file that is not a library instead of OSMesa's.
 const std::map<std::string, std::string> no_osmesa{{"libOSMesa.so.8", "no library"}};
 const std::map<std::string, std::string> no_gl{{"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"},
                                                {"LD_LIBRARY_PATH", "{}"}};

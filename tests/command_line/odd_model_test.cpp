@@ -1,4 +1,4 @@
-// Models and frames that are odd and no error: they render, and what was mended is said.
+// Models and frames that are odd but valid: they render, and a message names the fix.
 #include <limits>
 
 #include "tests/command_line/bumpy_quad.hpp"
@@ -54,7 +54,7 @@ std::vector<Case> models() {
   };
 }
 
-// What `compare` is given after the scene.
+// The arguments of `compare` after the scene.
 Case comparison(const std::string& name, std::vector<std::string> arguments, std::vector<std::string> output) {
   arguments.insert(arguments.begin(), {"compare", "ribbed_plane", "--repeats", "1", "-o", "{}/out"});
   return {.name = name,

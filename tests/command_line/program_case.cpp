@@ -114,12 +114,12 @@ TEST_P(CommandLine, EndsAsItShould) {
   EXPECT_LT(line.size(), 600U) << line;
   expect_parts(row.errors_have, line);
   if (row.keeps_work) {
-    EXPECT_TRUE(left.contains("out/kept")) << "nothing was kept";
-    std::set<std::string> kept{"out/kept"};
-    for (const std::string& file : row.leaves) kept.insert(fs::path(file).parent_path().string());
+    EXPECT_TRUE(left.contains("out/kept")) << "no finished work";
+    std::set<std::string> allowed{"out/kept"};
+    for (const std::string& file : row.leaves) allowed.insert(fs::path(file).parent_path().string());
     const auto may_stay = [&](const std::string& file) {
       return file == "out" ||
-             std::ranges::any_of(kept, [&](const std::string& name) { return file.starts_with(name); });
+             std::ranges::any_of(allowed, [&](const std::string& name) { return file.starts_with(name); });
     };
     for (const std::string& file : left) EXPECT_TRUE(may_stay(file)) << file;
   } else {

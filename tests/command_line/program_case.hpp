@@ -17,7 +17,7 @@
 
 namespace footprint::test {
 
-/// A row of a table. `{}` in arguments and in the environment stands for the case's own folder.
+/// A row of a table. `{}` in arguments and in the environment is the case's own folder.
 struct Case {
   std::string name;
   std::vector<std::string> arguments{};

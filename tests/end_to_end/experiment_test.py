@@ -1,4 +1,4 @@
-"""Experiments as users and continuous integration run them: every method held, and each gate seen to fall."""
+"""Experiments as users and continuous integration run them: every method is checked, and each gate is seen to fail."""
 
 import csv
 import json
@@ -53,7 +53,7 @@ class Experiments(WholeRunTest):
         self.assertRegex(errors, r"^footprint: .*1 claims and thresholds failed")
         self.assertTrue((out / "index.html").is_file(), "the report is written all the same")
 
-    # What continuous integration holds.
+    # The gates of continuous integration.
 
     def test_every_method_holds_the_quick_check(self):
         out = self.folder / "quick"
@@ -86,7 +86,7 @@ class Experiments(WholeRunTest):
         content = HEAD.replace("spp = 16", "spp = 2") + '[threshold]\n"error(toksvig)" = 0.001\n'
         code, _, errors, out = self.execute("within_noise", content)
         self.assertEqual(code, 2, errors)
-        self.assertRegex(errors, r"within_noise.toml:\d+: the threshold error\(toksvig\) = 0.001 lies within the "
+        self.assertRegex(errors, r"within_noise.toml:\d+: the threshold error\(toksvig\) = 0.001 is within the "
                                  r"reference's noise, 0\.")
         self.assertFalse((out / "kept").exists(), "no distance was finished")
         self.assertFalse((out / "results.json").exists())
@@ -118,10 +118,10 @@ class Experiments(WholeRunTest):
         self.assertIn("Failed:", output)
         self.assertFalse(results_of(out)["experiment"]["thresholds"][0]["held"])
 
-    # What other programs read.
+    # The files that other programs read.
 
     def check(self, name, content, *more):
-        """Exit code and standard output of a check whose finished work is kept from call to call."""
+        """Exit code and standard output of a check whose finished work is reused from call to call."""
         file = self.folder / f"{name}.toml"
         file.write_text(content, encoding="utf-8")
         command = [PROGRAM, "check", file, "--quiet", "-o", self.folder / f"{name}_out", *more]
@@ -141,7 +141,7 @@ class Experiments(WholeRunTest):
         line = 1 + content[:content.index('"error(direct)"')].count("\n")
         self.assertRegex(output, rf"(?m)^::error file=.*read\.toml,line={line},title=read%3A threshold error\(direct\)::at most")
 
-    def test_a_baseline_is_written_when_asked_for_held_and_falls(self):
+    def test_a_baseline_is_written_on_request_passes_and_fails(self):
         baseline = self.folder / "baseline.json"
         code, _, errors = self.check("based", HEAD, "--baseline", baseline)
         self.assertEqual(code, 2)
@@ -171,7 +171,7 @@ class Experiments(WholeRunTest):
         self.assertEqual(code, 2)
         self.assertIn("baseline.json: is damaged", errors)
 
-    # What a run writes.
+    # The files that a run writes.
 
     def test_measured_stands_beside_published_and_the_figure_is_composed(self):
         (self.folder / "paper.toml").write_text(
@@ -208,7 +208,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
             self.assertIn(f'src="{picture}"', page)
         self.assertEqual(results["experiment"]["pictures"], ["images/figure.png", "images/figure_errors.png"])
         width, height = picture_facts([str(out / "images/figure.png")])[str(out / "images/figure.png")]["size"]
-        self.assertGreater(width, 3 * 300)  # 16 pixels a side, enlarged by whole factors
+        self.assertGreater(width, 3 * 300)  # 16 pixels per side, enlarged by whole factors
         self.assertGreater(height, 300 + 600)
         self.assert_holds_to_schema(out)
 
@@ -292,7 +292,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         self.assertEqual(len({name for name in self.files(whole) if name.endswith(".exr")}), 9)
         frames = {self.files(whole)[f"images/reference_000{i}.exr"] for i in range(3)}
         self.assertEqual(len(frames), 3, "the light moves")
-        # A frame that was lost, as by a kill, is drawn anew; the others are not.
+        # A frame that was lost, as by a kill, is rendered again; the others are not.
         lost = next((again / "kept").glob("*/frame_*.json"))
         lost.unlink()
         run("animate", *light, "-o", again)
@@ -358,10 +358,10 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
 
         frames = [pixels(f"{who}_000{i}") for who in ("direct", "reference") for i in (0, 1)]
         sums = []
-        for old, new, old_truth, truth in zip(*frames, strict=True):
-            if old_truth[3] < 1 or truth[3] < 1:
+        for old, new, old_reference, reference in zip(*frames, strict=True):
+            if old_reference[3] < 1 or reference[3] < 1:
                 continue
-            shown = [[min(max(value, 0), 1) for value in pixel[:3]] for pixel in (old, new, old_truth, truth)]
+            shown = [[min(max(value, 0), 1) for value in pixel[:3]] for pixel in (old, new, old_reference, reference)]
             sums.append(sum((b - a - d + c) ** 2 for a, b, c, d in zip(*shown, strict=True)) ** 0.5 / 3 ** 0.5)
         flicker = results_of(out)["records"][1]["flicker"]
         self.assertGreater(len(sums), 100)

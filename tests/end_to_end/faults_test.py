@@ -1,4 +1,4 @@
-"""What machines do to programs: no thread to be had, Ctrl-C before main, a folder that takes nothing, two at once."""
+"""Faults of machines: no thread, Ctrl-C before main, a folder that takes nothing, two at once."""
 
 import json
 import os

@@ -60,8 +60,8 @@ def outcome(folder):
 
 def finished(folder):
     """When each finished part was written, by its key RUN/NAME."""
-    kept = folder / "kept"
-    return {str(file.relative_to(kept).with_suffix("")): file.stat().st_mtime_ns for file in kept.glob("*/*.json")}
+    work = folder / "kept"
+    return {str(file.relative_to(work).with_suffix("")): file.stat().st_mtime_ns for file in work.glob("*/*.json")}
 
 
 def names(keys):
@@ -69,7 +69,7 @@ def names(keys):
     return sorted(key.split("/")[1] for key in keys)
 
 
-class KeptRunTest(WholeRunTest):
+class FinishedWorkTest(WholeRunTest):
     """Writes experiments and runs them; files stand under absolute paths, so that reports name them alike."""
 
     @classmethod

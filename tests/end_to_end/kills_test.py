@@ -46,9 +46,9 @@ class Killed(WholeRunTest):
         return [path.name for path in out.parent.glob(f".{out.name}*")]
 
     def assert_old_or_new(self, out, states):
-        """Where there is a list or a page, all pictures are of one state, and results.json, where it is, of that one."""
+        """If a list or a page exists, all images are of one state, and results.json, if it exists, is of the same."""
         if not any(path.is_file() for path in out.glob("*")):
-            return  # pictures without a list: nobody takes them for a run
+            return  # images without a list: they are not a run
         there = {place: content for place, content in outcome(out).items() if ".partial-" not in place.parts[0]}
         pictures = lambda state: {place: content for place, content in state.items() if place.suffix != ".json"}
         of = [state for state in states if pictures(state) == pictures(there)]

@@ -4,12 +4,12 @@ import json
 import shutil
 import unittest
 
-from kept_runs import DISTANCES, MATRIX, NDF, ZOOM, KeptRunTest, finished, outcome
+from kept_runs import DISTANCES, MATRIX, NDF, ZOOM, FinishedWorkTest, finished, outcome
 
 COUNT = 3
 
 
-class Merged(KeptRunTest):
+class Merged(FinishedWorkTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -94,7 +94,7 @@ class Merged(KeptRunTest):
                          ["trilinear-seed1", "trilinear-seed2", "box_2-seed1", "box_2-seed2"])
         self.assertTrue(all(threshold["held"] for threshold in document["experiment"]["thresholds"]))
 
-    # What does not fit.
+    # Parts that do not fit.
 
     def test_a_part_is_missing(self):
         self.assert_refused([self.parts[0], self.parts[2]], "part 2 of 3 is missing", "--shard 2/3")

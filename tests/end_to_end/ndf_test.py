@@ -53,8 +53,8 @@ class NdfTest(WholeRunTest):
         self.assertEqual(list(self.document["methods"]), METHODS)
 
     def test_figures_are_what_they_must_be(self):
-        truth, methods = self.document["truth"], self.document["methods"]
-        self.assertAlmostEqual(truth["energy"], truth["expected_energy"], delta=1e-3)
+        exact, methods = self.document["truth"], self.document["methods"]
+        self.assertAlmostEqual(exact["energy"], exact["expected_energy"], delta=1e-3)
         for name, method in methods.items():
             self.assertAlmostEqual(method["energy"], 1.0, delta=0.01, msg=name)
         self.assertLess(methods["toksvig"]["l2"], methods["naive_mip"]["l2"])

@@ -111,7 +111,7 @@ class RecommendTest(WholeRunTest):
         self.assertNotIn("were reused", fresh.stderr)
 
     def test_a_reference_is_resumed_for_the_filters_that_follow(self):
-        """Methods under shaded:2 would ask for more samples than those under the first filter, which are not measured again."""
+        """Methods under shaded:2 would need more samples than those under the first filter, which are not measured again."""
         def references(name, *filters):
             folder = self.folder / name
             for listed in filters:
@@ -143,15 +143,15 @@ class RecommendTest(WholeRunTest):
         figures = {}
         for filters in ("box:2,anisotropic:8", "anisotropic:8", "box:2"):
             folder = self.folder / f"shared_{len(figures)}"
-            asked = ["--methods", METHODS, "--spp", "64", "--exhaustive", "--footprints", filters]
-            run("recommend", *self.SHOTS, *asked, "-o", folder)
+            options = ["--methods", METHODS, "--spp", "64", "--exhaustive", "--footprints", filters]
+            run("recommend", *self.SHOTS, *options, "-o", folder)
             records = results_of(folder / file_of(filters.split(",")[-1]))["records"]
             figures[filters] = [(r["method"], r["distance"], r["error"]) for r in records]
         self.assertEqual(figures["box:2,anisotropic:8"], figures["anisotropic:8"])
         self.assertNotEqual(figures["box:2"], figures["anisotropic:8"])
 
     def test_all_filters_are_measured_against_one_reference(self):
-        """Its noise is a part of every error: against another one, drawn until two methods are told apart that lie
+        """Its noise is a part of every error: against another one, drawn until two methods are separated that lie
         farther from one another, an error would be larger by nothing of the method's."""
         together, alone = self.folder / "together", self.folder / "alone"
         shots = [*self.SHOTS, "--exhaustive", "--spp-max", "256"]
@@ -180,7 +180,7 @@ class RecommendTest(WholeRunTest):
         stalled = {"chosen": 0, "nearest": None, "candidates": [candidate("toksvig", 1.1), candidate("lean", 1.5)]}
         for max_error in (None, 0.1):
             self.assertIsNone(disagreement(stalled, whole, max_error))
-            # Where the quick run saw that it is dearer, did not measure the cheaper one, or took a larger error for it:
+            # If the quick run saw that it is more expensive, did not measure the cheaper one, or took a larger error for it:
             saw = {**stalled, "candidates": [candidate("toksvig", 1.3), candidate("lean", 1.0)]}
             self.assertIn("exhaustively lean", disagreement(saw, whole, max_error))
             dropped = {**stalled, "candidates": [candidate("toksvig", 1.1)]}

@@ -12,14 +12,14 @@ def find(candidates, wanted):
 
 
 def cost_as_much(a, b):
-    """Whether one's median lies within the other's spread."""
+    """Whether one's median is within the other's spread."""
     return (
         b["cost"]["low"] <= a["cost"]["median"] <= b["cost"]["high"]
         or a["cost"]["low"] <= b["cost"]["median"] <= a["cost"]["high"]
     )
 
 
-def told_apart(a, b):
+def errors_differ(a, b):
     """Whether the errors differ by more than three standard errors of the difference."""
     if a["noise"] is None or b["noise"] is None:
         return False
@@ -32,7 +32,7 @@ def chosen_of(advice):
 
 
 def clocks_contradict(quick, a, b):
-    """Whether the quick run, which measured both in full and chose a, did not find a dearer than b. Where the exhaustive
+    """Whether the quick run, which measured both in full and chose a, did not find a more expensive than b. Where the exhaustive
     run did, the two runs' clocks part them: a frame takes milliseconds, and a shared machine stalls for as long."""
     one, other = find(quick["candidates"], a), find(quick["candidates"], b)
     return other is not None and (one["cost"]["median"] <= other["cost"]["median"] or cost_as_much(one, other))
@@ -40,8 +40,8 @@ def clocks_contradict(quick, a, b):
 
 def disagreement(quick, whole, max_error=None):
     """None where the advice for a material is the same, or parted by no more than noise: that of errors in the
-    exhaustive run's own figures, that of costs in those of either run; else what differs, in words. Within an error the
-    cheapest is asked for: costs alone decide."""
+    exhaustive run's own figures, that of costs in those of either run; else what differs, in words. Under a limit on the
+    error the cheapest wins: only costs decide."""
     a, b = chosen_of(quick), chosen_of(whole)
     if a is None or b is None:
         return None if a is b else f"{a} and {b}"
@@ -50,7 +50,7 @@ def disagreement(quick, whole, max_error=None):
     measured = find(whole["candidates"], a)
     if measured is None:
         return f"{a['method']} under {a['footprint']} was no candidate of the exhaustive run"
-    as_good = measured["worst"] <= max_error if max_error is not None else not told_apart(measured, b)
+    as_good = measured["worst"] <= max_error if max_error is not None else not errors_differ(measured, b)
     if as_good and (cost_as_much(measured, b) or clocks_contradict(quick, a, b)):
         return None
     return (

@@ -16,7 +16,7 @@ NEAR, FAR = 1, 6
 
 
 class References(html.parser.HTMLParser):
-    """What a page loads: the values of src and href."""
+    """The files that a page loads: the values of src and href."""
 
     def __init__(self):
         super().__init__()
@@ -94,7 +94,7 @@ class Report(WholeRunTest):
             self.assertGreaterEqual(min(facts["least"]), 0.0, name)
             self.assertEqual(facts["most"][3], 1.0, name)
 
-    # What they say.
+    # Their content.
 
     def test_the_filtered_method_is_nearer_to_the_reference(self):
         self.assertLess(self.error("toksvig", FAR), self.error("direct", FAR))
@@ -124,9 +124,9 @@ class Report(WholeRunTest):
             edges = pixels["object"] - pixels["interior"]
             whole = (error["shading"] * pixels["interior"] + (error["edges"] or 0.0) * edges) / pixels["object"]
             self.assertTrue(math.isclose(whole, error["normalized_color"], rel_tol=1e-9))
-            self.assertIsNone(error["light"], "there is no environment")
+            self.assertIsNone(error["light"], "no environment")
 
-    def test_no_bound_where_none_is_asked_for(self):
+    def test_no_bound_without_a_request(self):
         arguments = ["ribbed_plane", "--size", "32x32", "--spp", "4", "--distance", "2", "--bound", "off"]
         for record in results_of(self.compare("unbound", *arguments))["records"]:
             self.assertIsNone(record["error"]["filter"])
@@ -197,7 +197,7 @@ class Report(WholeRunTest):
         flat = results_of(
             self.compare("flat", "ribbed_plane", "--size", "64x64", "--spp", "4", "--distance", NEAR, "--without", "normal_variation")
         )
-        self.assertTrue(any("as was asked: normal_variation" in warning for warning in flat["scene"]["warnings"]))
+        self.assertTrue(any("as requested: normal_variation" in warning for warning in flat["scene"]["warnings"]))
         errors = {record["error"]["normalized_color"] for record in flat["records"]}
         self.assertEqual(len(errors), 1, "without bumps every method draws the same")
         for record in flat["records"]:

@@ -9,14 +9,14 @@ import shutil
 import time
 import unittest
 
-from kept_runs import DISTANCES, MATRIX, METHODS, NDF, ZOOM, KeptRunTest, finished, names, outcome
+from kept_runs import DISTANCES, MATRIX, METHODS, NDF, ZOOM, FinishedWorkTest, finished, names, outcome
 
 KILLS = int(os.environ.get("FOOTPRINT_KILLS", "3"))
 SEED = int(os.environ.get("FOOTPRINT_SEED", "1"))
 ALL_PARTS = 9  # two members, each with 3 distances and a head; the NDF of one
 
 
-class WholeAndKilled(KeptRunTest):
+class WholeAndKilled(FinishedWorkTest):
     """An experiment that was run whole once, and what it takes to kill it; a subclass says which (`written`)."""
 
     @classmethod
@@ -48,7 +48,7 @@ class WholeAndKilled(KeptRunTest):
         return killed
 
     def assert_goes_on(self, out, before):
-        """What was finished is as it was; the rest is done; nothing is left that no run would leave."""
+        """Finished parts are unchanged, the rest is done, and no file is left that a run would not leave."""
         self.must("run", self.experiment, "-q", "-o", out)
         after = finished(out)
         self.assertEqual({key: after.get(key) for key in before}, before, "finished work was lost or done again")
@@ -68,7 +68,7 @@ class WholeAndKilled(KeptRunTest):
             before, kills = now, kills + killed
             if kills == KILLS:
                 break
-            if not killed:  # it got to its end: that is one whole run, and the next begins anew
+            if not killed:  # it got to its end: that is one whole run, and the next starts over
                 self.assert_goes_on(out, before)
                 shutil.rmtree(out)
                 before = {}
@@ -113,7 +113,7 @@ class Resumed(WholeAndKilled):
         self.assertEqual(finished(out), before)
         self.assert_same_outcome(self.expected, outcome(out))
 
-    def test_fresh_measures_anew(self):
+    def test_fresh_measures_again(self):
         out = self.copy("fresh")
         before = finished(out)
         self.must("run", self.experiment, "-q", "--fresh", "-o", out)
@@ -121,13 +121,13 @@ class Resumed(WholeAndKilled):
         self.assertEqual(after.keys(), before.keys())
         self.assertFalse([key for key in after if after[key] == before[key]])
 
-    # What is damaged is done again, and it alone.
+    # Only damaged parts are done again.
 
     def assert_done_again(self, out, before, expected):
         after = finished(out)
         self.assertEqual(names(key for key in after if after[key] != before.get(key)), expected)
 
-    def test_a_damaged_part_is_measured_anew(self):
+    def test_a_damaged_part_is_measured_again(self):
         out = self.copy("damaged")
         before = finished(out)
         part = sorted((out / "kept").glob("*/distance_6.json"))[0]
@@ -138,10 +138,10 @@ class Resumed(WholeAndKilled):
         self.assert_done_again(out, before, ["distance_6"])
         self.assert_same_outcome(self.expected, outcome(out))
 
-    def test_a_damaged_picture_is_drawn_anew(self):
+    def test_a_damaged_picture_is_rendered_again(self):
         out = self.copy("damaged_picture")
         before = finished(out)
-        # The kept picture and the one in images/ are one file, unless it was copied.
+        # The stored image and the one in images/ are one file, unless it was copied.
         of_direct = (self.whole / "distances/images/d2_direct.exr").read_bytes()
         for file in (out / "kept").glob("*/images/d2_direct.exr"):
             if file.read_bytes() == of_direct:
@@ -165,7 +165,7 @@ intensity = {}
 """
 
 
-class Changed(KeptRunTest):
+class Changed(FinishedWorkTest):
     """Only parts that depend on a change are measured again."""
 
     def parts_after(self, distances, more="", methods=METHODS):

@@ -14,7 +14,7 @@ ALL_TESTS = "FOOTPRINT_ALL_TESTS" in os.environ  # `scripts/test --all`: whole s
 
 
 def run(*arguments):
-    """What the program prints; fails with its error line."""
+    """The output of the program; fails with its error line."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"{arguments}: exit code {done.returncode}: {done.stderr}"
     return done.stdout
@@ -66,7 +66,7 @@ def largest_difference(first, second):
 
 
 def picture_facts(files):
-    """What oiiotool says of each file: size, channels, statistics."""
+    """The facts of oiiotool on each file: size, channels, statistics."""
     done = subprocess.run(["oiiotool", "--info", "-v", "--stats", *files], capture_output=True, text=True, check=True)
     facts = {}
     for block in done.stdout.split("Reading ")[1:]:

@@ -12,7 +12,7 @@ import unittest
 from whole_runs import ALL_TESTS, PROGRAM, SOURCE, WholeRunTest, picture_facts, run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
-import zink  # noqa: E402  it lies in scripts/
+import zink  # noqa: E402  it is in scripts/
 
 # `xu_vmf` builds its map in several ways.
 VARIANTS = ("xu_vmf:j=4", "xu_vmf:j=adaptive:thresholds=blended", "xu_vmf:space=camera", "reference")
@@ -50,7 +50,7 @@ class Zink(WholeRunTest):
         self.run_by_zink("render", *arguments, "--quiet", "-o", file)
         return file
 
-    def test_it_is_zink_and_told_as_software(self):
+    def test_it_is_zink_and_reported_as_software(self):
         backends = json.loads(self.run_by_zink("list", "backends", "--json"))["backends"]
         egl = next(backend for backend in backends if backend["name"] == "egl")
         self.assertIn("zink", egl["renderer"])

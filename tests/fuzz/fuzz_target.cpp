@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     reader.read(file, {data, size});
   } catch (const footprint::Error&) {
-    // What a reader is to do with what it does not understand.
+    // The right answer of a reader to malformed input.
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// What a reader of foreign files is to libFuzzer: a file's name, and what reads it.
+// A reader of foreign files for libFuzzer: a file's name, and its reading function.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace footprint::fuzz {
 
-/// Reads bytes, or the file that holds them; ends in Error, or not at all.
+/// Reads bytes, or the file with them; ends in Error, or succeeds.
 using Read = void (*)(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 struct Reader {

@@ -142,7 +142,7 @@ intensity = 1.0
 
 
 def bakes(program, folder, scratch):
-    """What two methods keep in the cache of a small map."""
+    """The cache files of two methods for a small map."""
     subprocess.run([program, "surface", "bumps", "--resolution", "16", "-o", scratch / "map.png"], check=True,
                    capture_output=True)
     (scratch / "plane.toml").write_text(PLANE)

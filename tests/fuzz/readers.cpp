@@ -26,7 +26,7 @@ namespace {
 constexpr int largest_side = 256;
 
 // The checksum of a cache entry, 16 digits at its end, would keep every change from the reader.
-std::vector<std::uint8_t> sealed_anew(std::span<const std::uint8_t> bytes) {
+std::vector<std::uint8_t> with_new_checksum(std::span<const std::uint8_t> bytes) {
   const std::span<const std::uint8_t> body = bytes.first(bytes.size() - std::min<std::size_t>(bytes.size(), 16));
   std::vector<std::uint8_t> out(body.begin(), body.end());
   const std::string sum = fmt::format("{:016x}", fnv1a(std::as_bytes(body)));
@@ -55,8 +55,8 @@ Reader reader_named(const std::string& name) {
   if (name == "scene")
     return {"scene.toml", [](const Path& file, Bytes) { static_cast<void>(read_scene_settings(file, {})); }};
   if (name == "cache_entry")
-    return {"input.bytes", [](const Path&, Bytes bytes) { static_cast<void>(from_bytes(sealed_anew(bytes))); }};
-  std::fprintf(stderr, "there is no reader %s\n", name.c_str());
+    return {"input.bytes", [](const Path&, Bytes bytes) { static_cast<void>(from_bytes(with_new_checksum(bytes))); }};
+  std::fprintf(stderr, "%s is not a reader\n", name.c_str());
   std::abort();
 }
 

@@ -1,5 +1,4 @@
-// The readers of what runs are asked for and leave: experiments, what parts of a run say of themselves, lists of files,
-// and what is kept of finished work.
+// The readers of the files that runs read and leave: experiments, parts of a run, lists of files, and finished work.
 #include <cstdio>
 #include <cstdlib>
 
@@ -19,7 +18,7 @@ Reader reader_named(const std::string& name) {
     return {"part.json", [](const Path& file, Bytes) { static_cast<void>(read_part_file(file.parent_path())); }};
   if (name == "results")
     return {"results.json", [](const Path& file, Bytes) { static_cast<void>(listed_files(file)); }};
-  std::fprintf(stderr, "there is no reader %s\n", name.c_str());
+  std::fprintf(stderr, "%s is not a reader\n", name.c_str());
   std::abort();
 }
 

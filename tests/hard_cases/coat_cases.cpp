@@ -46,7 +46,7 @@ using At = std::function<double(int)>;
 
 // One coat per pixel: roughness by columns, weight by rows. The normal leans by a number of lobe widths from the half
 // vector, where the lobe has its peak.
-ClearCoat coat_a_pixel(const Scene& scene, const At& roughness_at, const At& weight_at, const At& widths_at) {
+ClearCoat coat_per_pixel(const Scene& scene, const At& roughness_at, const At& weight_at, const At& widths_at) {
   Image weights(picture_edge, picture_edge, 1), widths(picture_edge, picture_edge, 1);
   for (int y = 0; y < picture_edge; ++y) {
     for (int x = 0; x < picture_edge; ++x) {
@@ -75,7 +75,7 @@ double peak_and_flank(int y) { return 0.7 * (y % 4); }
 double flank(int) { return 0.7; }
 
 Scene with_any_coat(Scene scene) {
-  const ClearCoat coat = coat_a_pixel(scene, any_roughness, any_weight, peak_and_flank);
+  const ClearCoat coat = coat_per_pixel(scene, any_roughness, any_weight, peak_and_flank);
   for (Material& material : scene.materials) material.coat = coat;
   return scene;
 }
@@ -100,7 +100,7 @@ Scene half_without_normals() {
 // Small steps: roughness by columns from half its bound to twice its bound, weight by rows from 0.
 Scene through_its_bounds() {
   Scene scene = whole_square(noise(16, 16, 0.01, 9), 0.4F);
-  scene.materials.front().coat = coat_a_pixel(
+  scene.materials.front().coat = coat_per_pixel(
       scene, [](int x) { return 0.5 * least_roughness * std::pow(4.0, x / (picture_edge - 1.0)); },
       [](int y) { return 1e-5 * std::max(y - 4, 0); }, flank);
   return scene;
@@ -110,7 +110,7 @@ Scene through_its_bounds() {
 // two weights would count where no light reaches the base.
 Scene steep_normals() {
   Scene scene = whole_square(noise(16, 16, 0.5, 9), 0.4F);
-  ClearCoat coat = coat_a_pixel(
+  ClearCoat coat = coat_per_pixel(
       scene, [](int x) { return 0.4 + 0.02 * x; }, [](int y) { return (y + 1.0) / picture_edge; }, flank);
   Image normals = noise(picture_edge, picture_edge, 0.999, 4);
   const auto put = [&](int x, int y, const glm::vec4& texel) {
@@ -128,7 +128,7 @@ Scene steep_normals() {
 Scene bumpy_coat(Image normals, double roughness) {
   Scene scene = whole_square(noise(16, 16, 0.5, 9), 0.4F);
   const auto even = [](double value) { return [value](int i) { return value * (i % 2 == 0 ? 0.999 : 1.0); }; };
-  ClearCoat coat = coat_a_pixel(scene, even(roughness), even(1.0), flank);
+  ClearCoat coat = coat_per_pixel(scene, even(roughness), even(1.0), flank);
   coat.normal_map = map_over_the_square(std::move(normals));
   coat.normal_map->coordinates = {.transform = {16.0F, 0.0F, 0.0F, 16.0F, 0.0F, 0.0F}};
   scene.materials.front().coat = std::move(coat);

@@ -125,19 +125,19 @@ std::vector<CoatedPixel> coat_sum(const Scene& scene, const glm::ivec2& size, in
 
 CoatError coat_error(const std::vector<CoatedPixel>& sum, const Image& bare, const Image& picture) {
   CoatError error;
-  const auto truth = [&](std::size_t i) { return (1.0 - sum[i].share) * bare.texels[4 * i] + sum[i].light; };
+  const auto expected = [&](std::size_t i) { return (1.0 - sum[i].share) * bare.texels[4 * i] + sum[i].light; };
   const auto width = static_cast<std::size_t>(picture.width);
   double all = 0.0, all_true = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i) {
     if (!sum[i].whole) continue;
     const double value = picture.texels[4 * i];
     all += value;
-    all_true += truth(i);
-    keep_worst(error.each, difference(value, truth(i)));
+    all_true += expected(i);
+    keep_worst(error.each, difference(value, expected(i)));
     for (const std::size_t next : {i + 1, i + width}) {
       if (next >= sum.size() || (next == i + 1 && next % width == 0) || !sum[next].whole) continue;
       keep_worst(error.step, difference(picture.texels[4 * next], value));
-      keep_worst(error.true_step, difference(truth(next), truth(i)));
+      keep_worst(error.true_step, difference(expected(next), expected(i)));
     }
   }
   error.mean = difference(all, all_true);

@@ -40,10 +40,10 @@ double bad_numbers(std::span<const float> values) {
       std::ranges::count_if(values, [](float value) { return !std::isfinite(value) || value < 0.0F; }));
 }
 
-double largest_difference(std::span<const float> values, std::span<const double> truth) {
+double largest_difference(std::span<const float> values, std::span<const double> exact) {
   double most = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) keep_worst(most, std::abs(values[i] - truth[i]));
-  return most / *std::ranges::max_element(truth);
+  for (std::size_t i = 0; i < values.size(); ++i) keep_worst(most, std::abs(values[i] - exact[i]));
+  return most / *std::ranges::max_element(exact);
 }
 
 double integral(const HemisphereGrid& grid, auto value_at) {
@@ -54,8 +54,8 @@ double integral(const HemisphereGrid& grid, auto value_at) {
 
 double energy_error(const Directions& directions, std::span<const float> values) {
   const double own = integral(directions.grid, [&](std::size_t i) { return values[i]; });
-  const double truth = integral(directions.grid, [&](std::size_t i) { return directions.truth[i]; });
-  return std::abs(own / truth - 1.0);
+  const double exact = integral(directions.grid, [&](std::size_t i) { return directions.exact[i]; });
+  return std::abs(own / exact - 1.0);
 }
 
 // The change from one distribution to the next, as a share of the latter.
@@ -178,7 +178,7 @@ class Run {
       };
       add("finite", bad_numbers(values), 0.0);
       if (!hard.narrow) add("energy", energy_error(directions, values), hard.energy);
-      if (hard.limit) add("limit", largest_difference(values, directions.truth), *hard.limit);
+      if (hard.limit) add("limit", largest_difference(values, directions.exact), *hard.limit);
       if (!hard.narrow) show(bench, spec, hard.name, std::span(rows_).subspan(first));
     }
   }
@@ -218,14 +218,14 @@ class Run {
     if (settings_.methods.empty() && !sweep.also.empty()) methods.push_back(parse_methods(sweep.also).front());
     std::vector<std::optional<std::vector<float>>> before(methods.size());
     std::vector<double> largest(methods.size(), 0.0), most_lost(methods.size(), 0.0);
-    std::vector<double> truth;
+    std::vector<double> exact;
     double true_step = 0.0;
     for (int i = 0; i <= sweep.steps; ++i) {
       NdfBench bench(context_, sweep.material(std::lerp(sweep.from, sweep.to, static_cast<double>(i) / sweep.steps)),
                      {});
       const Directions directions = bench.over_the_hemisphere(sweep_rings);
-      if (i > 0) true_step = std::max(true_step, step_between(directions.grid, truth, directions.truth));
-      truth = directions.truth;
+      if (i > 0) true_step = std::max(true_step, step_between(directions.grid, exact, directions.exact));
+      exact = directions.exact;
       for (std::size_t m = 0; m < methods.size(); ++m) {
         progress(fmt::format("{}, {}", sweep.name, methods[m].text), 0.0);
         std::vector<float> values = bench.densities(methods[m], directions);
@@ -318,13 +318,13 @@ class Run {
     const bool passed = std::ranges::all_of(rows, [](const HardRow& row) { return row.verdict == Verdict::passed; });
     if (passed) return;
     const Directions directions = bench.over_the_disc(disc);
-    const auto scale = static_cast<float>(*std::ranges::max_element(directions.truth));
+    const auto scale = static_cast<float>(*std::ranges::max_element(directions.exact));
     const auto shown = [&](const auto& values) {
       Image image(disc, disc, 1);
       std::ranges::transform(values, image.texels.begin(), [](auto value) { return static_cast<float>(value); });
       return false_color(image, scale);
     };
-    const Image strip = labelled_strip({shown(directions.truth), shown(bench.densities(spec, directions))},
+    const Image strip = labelled_strip({shown(directions.exact), shown(bench.densities(spec, directions))},
                                        {"sum over texels", spec.text});
     const std::string file = fmt::format("images/{}_{}.png", name, file_stem(spec.text));
     write_png(folder_ / file, strip);

@@ -28,7 +28,7 @@ HardRow judged(const std::string& method, double value, const std::string& figur
   return row;
 }
 
-TEST(Judge, HoldsABound) {
+TEST(Judge, ChecksABound) {
   EXPECT_EQ(judged("other", 0.1).verdict, Verdict::passed);
   EXPECT_EQ(judged("other", 0.11).verdict, Verdict::failed);
   EXPECT_EQ(judged("other", std::numeric_limits<double>::quiet_NaN()).verdict, Verdict::failed);
@@ -46,7 +46,7 @@ TEST(Judge, KnowsHowFarALimitReaches) {
   EXPECT_EQ(judged("thin", 0.2).verdict, Verdict::failed) << "of one storage alone";
 }
 
-TEST(Judge, ALimitThatHoldsAfterAllFalls) {
+TEST(Judge, ALimitThatPassesUnexpectedlyFails) {
   EXPECT_EQ(judged("wide", 0.05).verdict, Verdict::failed);
   EXPECT_EQ(judged("wide:storage=fp16", 0.05).verdict, Verdict::passed) << "the method's own is still out of range";
 }
@@ -66,7 +66,7 @@ TEST(KeepWorst, NothingHidesANaN) {
   EXPECT_TRUE(std::isnan(worst));
 }
 
-TEST(StabilityPage, SaysOfNothingThatItHeldUntested) {
+TEST(StabilityPage, ReportsNothingAsPassedUntested) {
   std::vector<HardRow> rows{judged("other", 0.05), judged("wide", 0.4), judged("worse", 0.9)};
   rows.push_back({"other", "smooth", "sizes", "a map", "finite", 0.0, 0.0});
   const std::string page = stability_page(rows);

@@ -62,10 +62,10 @@ void add_widths(Limits& limits) {
              {"alphas_0_05_and_1"}, "energy", 0.22,
              "one lobe for microfacet lobes of very different widths has the norm of neither");
   limits.add({"iwasaki_sg"}, {"alphas_0_05_and_1"}, "energy", 0.42, "it leaves `roughness_variation` out");
-  limits.add({"cells"}, {"exponents_0_1"}, "limit", 1.05, "slope variances above 1 are no lobe of slopes");
-  limits.add({"cells"}, {"kappas_0_1"}, "limit", 1.4, "slope variances above 1 are no lobe of slopes");
-  limits.add({"cells"}, {"exponents_0_1"}, "energy", 0.05, "slope variances above 1 are no lobe of slopes");
-  limits.add({"cells"}, {"kappas_0_1"}, "energy", 0.49, "slope variances above 1 are no lobe of slopes");
+  limits.add({"cells"}, {"exponents_0_1"}, "limit", 1.05, "lobes of slopes cannot have variances above 1");
+  limits.add({"cells"}, {"kappas_0_1"}, "limit", 1.4, "lobes of slopes cannot have variances above 1");
+  limits.add({"cells"}, {"exponents_0_1"}, "energy", 0.05, "lobes of slopes cannot have variances above 1");
+  limits.add({"cells"}, {"kappas_0_1"}, "energy", 0.49, "lobes of slopes cannot have variances above 1");
 }
 
 void add_means(Limits& limits) {

@@ -19,15 +19,15 @@ NdfBench::NdfBench(const gl::Context& context, const Material& material, const F
       gpu_(context.info(), scene_, effects_),
       texels_(texels_under(material, footprint)) {}
 
-std::vector<double> NdfBench::truth_at(const std::vector<glm::vec3>& directions) const {
-  const ReferenceNdf truth(scene_.materials.front().brdf.distribution, texels_.facets);
-  return truth.densities(directions, no_progress);
+std::vector<double> NdfBench::exact_at(const std::vector<glm::vec3>& directions) const {
+  const ReferenceNdf exact(scene_.materials.front().brdf.distribution, texels_.facets);
+  return exact.densities(directions, no_progress);
 }
 
 Directions NdfBench::over_the_hemisphere(int rings) const {
-  const ReferenceNdf truth(scene_.materials.front().brdf.distribution, texels_.facets);
-  Directions out{hemisphere_grid(std::min(resolution_for(truth.narrowest()), rings)), {}};
-  out.truth = truth.densities(out.grid.directions, no_progress);
+  const ReferenceNdf exact(scene_.materials.front().brdf.distribution, texels_.facets);
+  Directions out{hemisphere_grid(std::min(resolution_for(exact.narrowest()), rings)), {}};
+  out.exact = exact.densities(out.grid.directions, no_progress);
   return out;
 }
 
@@ -46,14 +46,14 @@ Directions NdfBench::about_the_facets() const {
         out.grid.directions.emplace_back(glm::normalize(facet.normal + side * away * width * across));
     }
   }
-  out.truth = truth_at(out.grid.directions);
+  out.exact = exact_at(out.grid.directions);
   return out;
 }
 
 Directions NdfBench::over_the_disc(int size) const {
   Directions out;
   out.grid.directions = disc_directions(size);
-  out.truth = truth_at(out.grid.directions);
+  out.exact = exact_at(out.grid.directions);
   return out;
 }
 

@@ -12,7 +12,7 @@ namespace footprint::hard_cases {
 /// Directions, and the sum over texels at each.
 struct Directions {
   HemisphereGrid grid;  ///< without solid angles if the directions are only near the facets' normals
-  std::vector<double> truth;
+  std::vector<double> exact;
 };
 
 class NdfBench {
@@ -29,7 +29,7 @@ class NdfBench {
   [[nodiscard]] std::vector<float> densities(const MethodSpec& spec, const Directions& directions);
 
  private:
-  [[nodiscard]] std::vector<double> truth_at(const std::vector<glm::vec3>& directions) const;
+  [[nodiscard]] std::vector<double> exact_at(const std::vector<glm::vec3>& directions) const;
 
   const gl::Context* context_;
   FootprintRect footprint_;

@@ -16,7 +16,7 @@ fail() {
   exit 1
 }
 
-# Fails unless FILE holds TEXT.
+# Fails unless FILE contains TEXT.
 expect() {
   grep -qF -- "$2" "$1" || fail "no \`$2\` in: $(head -c 2000 -- "$1")"
 }
@@ -27,7 +27,7 @@ install_and_move() {
   cd /
 }
 
-# What it lists is what lies beside it: a scene that is taken away is gone.
+# It lists what is next to it: a scene that is removed disappears.
 run_program() {
   "$program" list scenes >"$work/scenes"
   expect "$work/scenes" "  ribbed_plane"

@@ -1,4 +1,4 @@
-// What `footprint bake` writes: a renderer that has the files alone draws Footprint's own picture, for every method
+// The files of `footprint bake`: a renderer that has only the files draws Footprint's own picture, for every method
 // whose maps are baked.
 #include "renderer/baked_files/baked_files.hpp"
 
@@ -107,7 +107,7 @@ TEST(BakedFilesOf, ScreenFiltersDrawFootprintsPicture) {
   }
 }
 
-// What a frame build makes of the maps is baked once for all views; of camera space there is no such map.
+// The result of a frame build is baked once for all views; maps in camera space are not baked.
 TEST(BakedFilesOf, BuiltMapsDrawFootprintsPicture) {
   for (const std::string text : {"xu_vmf:j=4:storage=fp16", "xu_vmf:j=1:conversion=table"})
     EXPECT_LT(difference_from_the_pipeline(text, MapFiles::exr), 1e-3) << text;
@@ -140,7 +140,7 @@ TEST(BakedFilesOf, ModulesHaveTheScenesHorizon) {
   }
 }
 
-// The tests above can fail: they do where one map holds something else.
+// The tests above can fail: they do if one map differs.
 TEST(BakedFilesOf, AnotherRoughnessDrawsAnotherPicture) {
   const Bake bake(rough_square(), "toksvig");
   const fs::path folder = test::fresh_folder();

@@ -78,7 +78,7 @@ std::string text_of(const fs::path& file) {
 
 constexpr std::array<GLenum, 4> formats{GL_RED, GL_RG, GL_RGB, GL_RGBA};
 
-// Every number as a 32-bit float, whatever it was stored as.
+// Every number as a 32-bit float, from any format.
 gl::Texture texture_from_exr(const Json& texture, const fs::path& folder) {
   constexpr std::array<GLenum, 4> internal{GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F};
   const int layers = texture["layers"];

@@ -28,7 +28,7 @@ EffectSet effects_of_map(const Material& material) {
   return set;
 }
 
-// What a frame before may have left in a texture that the build fills.
+// The remains of an earlier frame in a texture that the build fills.
 void spoil(const GpuTexture& texture, const PrefilteredTexture& declared) {
   constexpr std::array<float, 4> anything{0.1F, -0.2F, 0.3F, 0.4F};
   for (std::size_t level = 0; level < declared.levels.size(); ++level) {

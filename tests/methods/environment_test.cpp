@@ -40,7 +40,7 @@ Environment uneven_environment() {
   return {.name = "uneven", .radiance = std::make_shared<const Image>(std::move(map)), .rotation = 0.7F};
 }
 
-// One normal everywhere, but for a texel that keeps a flat map from being left out, and is no bump to speak of.
+// One normal everywhere, but for a texel that keeps a flat map from being left out, and is not a visible bump.
 Image tilted_normals() {
   Image normals = constant_normals(16, 16, {0.28F, 0, 0.96F});
   normals.at(0, 0)[0] += 2e-5F;
@@ -91,12 +91,13 @@ TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
     return lit_square(tilted_normals(), {.brdf = brdf, .roughness = 0.6F}, uneven_environment());
   };
   TestRenderer& renderer = shared_renderer("all lights", scene, {6, 6});
-  static const Image truth = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+  static const Image reference =
+      renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
   const Image picture = renderer.frame(*GetParam(), {}, {}, 0, 1.0, EnvironmentUse::dense);
   if (std::ranges::none_of(picture.texels, [](float value) { return std::isfinite(value) && value != 1.0F; }))
     GTEST_SKIP() << "takes more rounds of loops than the software renderer has";
-  EXPECT_LT(compare_images(picture, truth, 1.0F).value().relative_rmse, 4e-3);
-  EXPECT_GT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 4e-3) << "the lookup";
+  EXPECT_LT(compare_images(picture, reference, 1.0F).value().relative_rmse, 4e-3);
+  EXPECT_GT(compare_images(renderer.frame(*GetParam()), reference, 1.0F).value().relative_rmse, 4e-3) << "the lookup";
 }
 
 // Four pixels, whose differences are a footprint, do not depend on neighbours that read other levels or have more
@@ -140,15 +141,15 @@ TEST_P(UnderAnEnvironment, IsNearTheReference) {
     return lit_square(random_normals(16, 16, 0.4F, 5), {.brdf = {}, .roughness = 0.5F}, uneven_environment());
   };
   TestRenderer& renderer = shared_renderer("texel per pixel", scene, {32, 32});
-  static const Image truth = renderer.reference(256).mean;
-  EXPECT_LT(compare_images(renderer.frame(*GetParam()), truth, 1.0F).value().relative_rmse, 0.25);
+  static const Image reference = renderer.reference(256).mean;
+  EXPECT_LT(compare_images(renderer.frame(*GetParam()), reference, 1.0F).value().relative_rmse, 0.25);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, UnderAnEnvironment, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
                          [](const auto& test) { return test.param->info().name; });
 
-// A sun of one texel in 512 columns that has a third of all light, and where the square's mirror image of it lies in
-// the picture.
+// A sun of one texel in 512 columns that has a third of all light, whose mirror image in the square is in
+// the image.
 Environment sunny_environment() {
   constexpr int width = 512, height = width / 2;
   Image map(width, height, 3, 1.0F);
@@ -164,15 +165,15 @@ Scene sunny_square(float roughness) {
   return lit_square({}, {.brdf = brdf, .roughness = roughness}, sunny_environment());
 }
 
-// Of the mean over the picture, and of each pixel's radiance.
+// The errors of the mean over the image, and of each pixel's radiance.
 struct SunErrors {
   double mean, picture;
-  [[nodiscard]] bool hold(double most) const { return std::abs(mean) < 0.03 && picture < most; }
+  [[nodiscard]] bool are_below(double most) const { return std::abs(mean) < 0.03 && picture < most; }
 };
 
-SunErrors errors_of(const Image& picture, const Image& truth) {
-  return {covered_mean(picture) / covered_mean(truth) - 1.0,
-          compare_images(picture, truth, 1.0F).value().relative_rmse};
+SunErrors errors_of(const Image& picture, const Image& reference) {
+  return {covered_mean(picture) / covered_mean(reference) - 1.0,
+          compare_images(picture, reference, 1.0F).value().relative_rmse};
 }
 
 constexpr glm::ivec2 sunny_size{24, 24};
@@ -185,21 +186,21 @@ TEST(SmallSunInAnEnvironment, IsWhatTheReferenceSeesOfItAtEveryRoughness) {
   for (const auto& [roughness, most] : {std::pair(0.1F, 1.0), {0.3F, 0.04}, {0.5F, 0.04}, {1.0F, 0.04}}) {
     renderer.update(sunny_square(roughness));
     const SunErrors errors = errors_of(renderer.frame(find_method("direct")), renderer.reference(128).mean);
-    EXPECT_TRUE(errors.hold(most)) << "roughness " << roughness << ": mean " << errors.mean << ", image "
-                                   << errors.picture;
+    EXPECT_TRUE(errors.are_below(most)) << "roughness " << roughness << ": mean " << errors.mean << ", image "
+                                        << errors.picture;
   }
 }
 
 TEST(SmallSunInAnEnvironment, IsMissedWhereItIsLostAndWhereItCountsTwice) {
   const Scene scene = sunny_square(0.5F);
-  const Image truth = TestRenderer(scene, sunny_size).reference(32).mean;
+  const Image reference = TestRenderer(scene, sunny_size).reference(32).mean;
   const SunsApart apart = suns_apart(*scene.environment);
   const SmallSun sun = apart.suns.at(0);
   Scene lost = scene, twice = scene;
   lost.environment = apart.rest;
   twice.lights = {DirectionalLight{glm::vec3(-sun.direction), glm::vec3(sun.irradiance)}};
   for (const Scene& wrong : {lost, twice})
-    EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), truth).hold(0.25));
+    EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), reference).are_below(0.25));
 }
 
 // Two lamps of a texel each, one of them seen in the square.
@@ -211,14 +212,14 @@ TEST(SmallSunInAnEnvironment, IsOneOfTwo) {
   scene.environment->radiance = std::make_shared<const Image>(std::move(map));
   TestRenderer renderer(scene, sunny_size);
   ASSERT_EQ(renderer.gpu_scene().environment()->sun_count(), 2U);
-  const Image truth = renderer.reference(128).mean;
-  EXPECT_TRUE(errors_of(renderer.frame(find_method("direct")), truth).hold(0.04));
+  const Image reference = renderer.reference(128).mean;
+  EXPECT_TRUE(errors_of(renderer.frame(find_method("direct")), reference).are_below(0.04));
   const SunsApart apart = suns_apart(*scene.environment);
   for (const SmallSun& only : apart.suns) {
     Scene wrong = scene;
     wrong.environment = apart.rest;
     wrong.lights = {DirectionalLight{glm::vec3(-only.direction), glm::vec3(only.irradiance)}};
-    EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), truth).hold(0.25));
+    EXPECT_FALSE(errors_of(TestRenderer(wrong, sunny_size).frame(find_method("direct")), reference).are_below(0.25));
   }
 }
 
@@ -271,10 +272,10 @@ TEST(ReferenceUnderAnEnvironment, IntegratesItWithinItsStandardError) {
     const auto count = static_cast<double>(reference.mean.texel_count());
     for (std::size_t c = 0; c < 3; ++c) {
       const double error = std::sqrt(variance[static_cast<int>(c)]) / count;
-      const double truth = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
-      EXPECT_NEAR(mean[static_cast<int>(c)] / count, truth, 4.0 * error + 2e-3 * truth)
+      const double expected = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
+      EXPECT_NEAR(mean[static_cast<int>(c)] / count, expected, 4.0 * error + 2e-3 * expected)
           << "exponent " << exponent << ", channel " << c;
-      EXPECT_LT(error, 0.02 * truth);
+      EXPECT_LT(error, 0.02 * expected);
     }
   }
 }
@@ -290,8 +291,8 @@ TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSame) {
     TestRenderer renderer(scene, {16, 16});
     const Image dense = renderer.reference(1, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
     for (std::size_t c = 0; c < 3; ++c) {
-      const double truth = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
-      EXPECT_NEAR(dense.at(8, 8)[c], truth, 0.01 * truth) << "exponent " << exponent << ", channel " << c;
+      const double expected = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
+      EXPECT_NEAR(dense.at(8, 8)[c], expected, 0.01 * expected) << "exponent " << exponent << ", channel " << c;
     }
     const double drawn = covered_mean(renderer.reference(64).mean);
     EXPECT_NEAR(covered_mean(dense), drawn, 0.01 * drawn) << "exponent " << exponent;

@@ -48,7 +48,7 @@ TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
       const auto scene = [&] {
         Image normals = constant_normals(64, 64, normal);
-        normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+        normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is not a visible bump
         return square_scene(normals, {.brdf = brdf});
       };
       TestRenderer& renderer = shared_renderer((normal.x > 0.0F ? "tilted " : "flat ") + brdf_key(brdf), scene);
@@ -142,16 +142,16 @@ double mean_of_colours(const Image& picture) {
   return sum / static_cast<double>(3 * picture.texel_count());
 }
 
-// At its finest level a method shades texels: it is then the base BRDF, but for what its representation cannot hold.
-// One that knows no texels has at least their mean.
+// At its finest level a method shades texels: it is then the base BRDF, except for what its representation cannot
+// store. One that knows no texels has at least their mean.
 TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
   TestRenderer& renderer = shared_renderer("random", [] { return square_scene(random_normals(64, 64, 0.5F, 5), {}); });
-  static const Image truth = renderer.reference(64).mean;  // the same for all methods
+  static const Image reference = renderer.reference(64).mean;  // the same for all methods
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
   if (GetParam()->info().resolves_texels) {
-    EXPECT_LT(compare_images(finest, truth, 1.0F).value().relative_rmse, 0.05);
+    EXPECT_LT(compare_images(finest, reference, 1.0F).value().relative_rmse, 0.05);
   } else {
-    EXPECT_NEAR(mean_of_colours(finest) / mean_of_colours(truth), 1.0, 0.05);
+    EXPECT_NEAR(mean_of_colours(finest) / mean_of_colours(reference), 1.0, 0.05);
   }
 }
 

@@ -21,8 +21,8 @@ namespace {
 
 FootprintFilter filter_of(const std::string& text) { return parse_footprint_filter(text, ""); }
 
-double error_of(const Image& picture, const Image& truth) {
-  return compare_images(picture, truth, 1.0F).value().relative_rmse;
+double error_of(const Image& picture, const Image& reference) {
+  return compare_images(picture, reference, 1.0F).value().relative_rmse;
 }
 
 Scene receding_square() {
@@ -49,14 +49,15 @@ TEST_P(FootprintFilters, OnePartIsTheWhole) {
     EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, filter_of(text)), whole), 1e-4) << text;
 }
 
-// Whatever prefilters a part: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
+// For every method: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
 TEST_P(FootprintFilters, PartsConvergeToTheReference) {
   if (!GetParam()->info().resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
   TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel", scene, {16, 16});
-  static const Image truth = renderer.reference(1024, 1, ReferenceFilter::nearest).mean;  // the same for all methods
-  const double few = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:2")), truth);
-  const double all = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:8")), truth);
+  static const Image reference =
+      renderer.reference(1024, 1, ReferenceFilter::nearest).mean;  // the same for all methods
+  const double few = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:2")), reference);
+  const double all = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:8")), reference);
   constexpr double noise = 0.005;  // of the reference
   EXPECT_LT(all, std::max(0.6 * few, noise));
   EXPECT_LT(all, 0.05);
@@ -65,7 +66,7 @@ TEST_P(FootprintFilters, PartsConvergeToTheReference) {
 TEST_P(FootprintFilters, HaveNothingToDoWhereNothingVaries) {
   const auto scene = [] {
     Image normals = constant_normals(32, 32, {0.28F, 0, 0.96F});
-    normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is no bump to speak of
+    normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out, and is not a visible bump
     return square_scene(normals, {});
   };
   TestRenderer& renderer = shared_renderer("nothing varies", scene);
@@ -80,8 +81,8 @@ TEST_P(FootprintFilters, HaveNothingToDoWhereNothingVaries) {
 INSTANTIATE_TEST_SUITE_P(Registry, FootprintFilters, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
                          [](const auto& tested) { return tested.param->info().name; });
 
-// What is looked up at a level of the module's own choice, the sampler of no filter changes: direct's finest, and the
-// parts of the hemisphere that a walk of Xu's method visits. Hardware is told the footprint by coordinates and picks
+// The sampler of a filter does not change lookups at a level of the module's own choice: direct's finest, and the
+// parts of the hemisphere that a walk of Xu's method visits. Hardware gets the footprint from coordinates and picks
 // its own.
 TEST(FootprintFilter, LevelsThatAModuleNamesAreTheSameUnderEach) {
   TestRenderer& renderer = shared_renderer("receding", receding_square, {24, 24});
@@ -94,7 +95,7 @@ TEST(FootprintFilter, LevelsThatAModuleNamesAreTheSameUnderEach) {
   EXPECT_LT(largest_difference(renderer.frame(find_method("xu_vmf"), {}, filter_of("hardware:8")), probed), 1e-4);
 }
 
-// Lights that are found once a pixel are those that are found for each part: of each kind, with shadows.
+// Lights that are found once per pixel are those that are found for each part: of each kind, with shadows.
 TEST(FootprintFilter, PartsSeeEveryLight) {
   Scene scene = box_over_floor();
   const PointLight point{{0.6F, 0.5F, 1.5F}, glm::vec3(5.0F), {}};

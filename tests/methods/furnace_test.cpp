@@ -54,8 +54,8 @@ std::vector<SquareMaterial> white_materials() {
 }
 
 // The gate: energy off by no more than the bound, and no pixel brighter than the furnace by more than a tenth.
-::testing::AssertionResult keeps_energy(const Image& picture, double truth, double bound) {
-  const double ratio = covered_mean(picture) / truth;
+::testing::AssertionResult keeps_energy(const Image& picture, double expected, double bound) {
+  const double ratio = covered_mean(picture) / expected;
   if (!(std::abs(ratio - 1.0) <= bound)) {
     return ::testing::AssertionFailure() << "energy " << ratio << " of the reference's, bound " << bound;
   }
@@ -74,11 +74,11 @@ TEST_P(InAWhiteFurnace, KeepsItsEnergyWithinTheBoundOfItsReadme) {
   ASSERT_TRUE(std::isfinite(bound)) << "methods/" << name << "/README.md has no `White furnace: within X%`";
   for (const SquareMaterial& material : white_materials()) {
     TestRenderer& renderer = furnace_renderer(material);
-    static std::map<TestRenderer*, double> truths;  // the same for all methods
-    const auto [truth, is_new] = truths.try_emplace(&renderer, 0.0);
-    if (is_new) truth->second = covered_mean(renderer.reference(36).mean);
+    static std::map<TestRenderer*, double> references;  // the same for all methods
+    const auto [reference, is_new] = references.try_emplace(&renderer, 0.0);
+    if (is_new) reference->second = covered_mean(renderer.reference(36).mean);
     for (const double distance : {0.5, 4.0}) {
-      EXPECT_TRUE(keeps_energy(renderer.frame(*GetParam(), {}, {}, 0, distance), truth->second, bound))
+      EXPECT_TRUE(keeps_energy(renderer.frame(*GetParam(), {}, {}, 0, distance), reference->second, bound))
           << name << ", roughness " << material.roughness << ", diffuse " << material.brdf.diffuse << ", distance "
           << distance;
     }
@@ -139,7 +139,7 @@ double under_lights(const Method& method, const SquareMaterial& material, double
   return sum;
 }
 
-// What methods look up of an environment is what their own BRDFs reflect of it, masking and horizon included.
+// Methods look up the light that their own BRDFs reflect of an environment, masking and horizon included.
 TEST(AWhiteFurnace, IsTheSumOfItsLights) {
   for (const char* const name : {"direct", "toksvig", "cells"}) {
     const Method& method = find_method(name);
@@ -156,16 +156,16 @@ TEST(AWhiteFurnace, IsTheSumOfItsLights) {
 TEST(InAWhiteFurnaceGate, RefusesWhatGainsOrLosesEnergy) {
   const SquareMaterial plaster = white_materials().front();
   const Method& direct = find_method("direct");
-  const double truth = covered_mean(furnace_renderer(plaster).reference(36).mean);
+  const double reference = covered_mean(furnace_renderer(plaster).reference(36).mean);
   const double bound = stated_bound("direct");
-  const Image kept = furnace_renderer(plaster).frame(direct);
-  EXPECT_TRUE(keeps_energy(kept, truth, bound));
-  EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 1.3F), {32, 32}).frame(direct), truth, bound));
-  EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 0.7F), {32, 32}).frame(direct), truth, bound));
+  const Image unchanged = furnace_renderer(plaster).frame(direct);
+  EXPECT_TRUE(keeps_energy(unchanged, reference, bound));
+  EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 1.3F), {32, 32}).frame(direct), reference, bound));
+  EXPECT_FALSE(keeps_energy(TestRenderer(furnace(plaster, 0.7F), {32, 32}).frame(direct), reference, bound));
   for (const float value : {1.2F, std::nanf("")}) {
-    Image spoilt = kept;
+    Image spoilt = unchanged;
     spoilt.at(4, 3)[0] = value;
-    EXPECT_FALSE(keeps_energy(spoilt, truth, bound)) << value;
+    EXPECT_FALSE(keeps_energy(spoilt, reference, bound)) << value;
   }
 }
 

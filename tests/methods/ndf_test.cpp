@@ -47,9 +47,9 @@ class Inspection {
  public:
   explicit Inspection(Material material, const FootprintRect& rect = whole_map, int most_rings = largest_resolution)
       : rect_(rect), scene_(scene_of_facets(material)), gpu_(shared_context().info(), scene_, effects()) {
-    const ReferenceNdf truth(material.brdf.distribution, texels_under(material, rect).facets);
-    grid_ = hemisphere_grid(std::min(resolution_for(truth.narrowest()), most_rings));
-    truth_ = truth.densities(grid_.directions, no_progress);
+    const ReferenceNdf exact(material.brdf.distribution, texels_under(material, rect).facets);
+    grid_ = hemisphere_grid(std::min(resolution_for(exact.narrowest()), most_rings));
+    exact_ = exact.densities(grid_.directions, no_progress);
   }
 
   [[nodiscard]] std::vector<float> densities(const std::string& text, const FootprintFilter& filter = {}) {
@@ -67,7 +67,7 @@ class Inspection {
   }
 
   [[nodiscard]] NdfFigures figures(const std::string& text, const FootprintFilter& filter = {}) {
-    return compare_ndfs(grid_, densities(text, filter), truth_);
+    return compare_ndfs(grid_, densities(text, filter), exact_);
   }
 
  private:
@@ -77,7 +77,7 @@ class Inspection {
   Scene scene_;
   GpuScene gpu_;
   HemisphereGrid grid_;
-  std::vector<double> truth_;
+  std::vector<double> exact_;
 };
 
 // The inspection of `key`, made on the first call: methods share the exact NDF.
@@ -125,8 +125,8 @@ TEST_P(EveryMethodsNdf, KeepsNarrowLobesOnATilt) {
         Inspection(material_of(constant_normals(16, 16, normal), lobe), whole_map, 32).densities_at(name(), directions);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const glm::dvec3 d = glm::normalize(glm::dvec3(directions[i])) - glm::normalize(glm::dvec3(normal));
-      const double truth = lobe_density(lobe, 0.5 * glm::dot(d, d));
-      EXPECT_NEAR(found[i], truth, 0.01 * truth + 1e-9 * lobe_peak(lobe)) << lobe_text(lobe) << ", direction " << i;
+      const double exact = lobe_density(lobe, 0.5 * glm::dot(d, d));
+      EXPECT_NEAR(found[i], exact, 0.01 * exact + 1e-9 * lobe_peak(lobe)) << lobe_text(lobe) << ", direction " << i;
     }
   }
 }
@@ -225,7 +225,7 @@ double difference_by_part(const Material& material, const std::string& method, c
   return most / *std::ranges::max_element(expected);
 }
 
-// Methods of which a part of a map may be baked for itself have the same density from it, whatever the map does at its
+// Methods of which a part of a map may be baked for itself have the same density from it, for any content at the map's
 // border. The density of the part next to it differs: the comparison sees which texels are taken.
 TEST_P(EveryMethodsNdf, IsTheSameFromThePartThatIsLookedAt) {
   if (!GetParam()->info().bakes_by_texel) GTEST_SKIP();
@@ -253,7 +253,7 @@ TEST_P(EveryMethodsNdf, IsTheSameFromThePartThatIsLookedAt) {
   }
 }
 
-// What is baked is what is looked at: of a large map some texels about a corner, of the whole map all of it.
+// Only the texels under the footprint are baked: some about a corner of a large map, or the whole map.
 TEST(FootprintParts, AreAsSmallAsTheirFootprints) {
   const Material material = material_of(constant_normals(2048, 1024, {0.0F, 0.0F, 1.0F}), {blinn_phong, 64});
   const auto texels = [&](const FootprintRect& rect) {
@@ -261,7 +261,7 @@ TEST(FootprintParts, AreAsSmallAsTheirFootprints) {
     return part ? part->material.normal_map->image.texel_count() : material.normal_map->image.texel_count();
   };
   EXPECT_EQ(texels({{0.0, 0.0}, {0.125, 0.25}}), std::size_t{256} * 256);      // one texel of a level
-  EXPECT_LE(texels({{0.1, 0.1}, {0.225, 0.35}}), std::size_t{9} * 256 * 256);  // wherever it lies
+  EXPECT_LE(texels({{0.1, 0.1}, {0.225, 0.35}}), std::size_t{9} * 256 * 256);  // at any position
   EXPECT_EQ(texels(whole_map), std::size_t{2048} * 1024);
   EXPECT_FALSE(part_under(material, {{0.0, 0.0}, {0.125, 0.25}}, {FootprintFilterKind::hardware, 8}));
   const Material odd = material_of(constant_normals(1001, 1001, {0.0F, 0.0F, 1.0F}), {blinn_phong, 64});
@@ -282,7 +282,7 @@ class SurfaceNdfs : public ::testing::TestWithParam<std::tuple<std::string, doub
 
 // Every method's density has the integral of the exact one, within 1%. Slow methods have a smaller map. By default one
 // exponent per surface.
-TEST_P(SurfaceNdfs, KeepTheTruthsEnergy) {
+TEST_P(SurfaceNdfs, KeepTheExactEnergy) {
   const auto& [surface, exponent] = GetParam();
   const bool is_wide = surface == "bumps" || surface == "scales";
   if (!all_tests() && is_wide != (exponent < 100.0)) GTEST_SKIP() << "only with scripts/test --all";

@@ -1,4 +1,4 @@
-// A detail layer over a normal map: the truth adds slopes texel by texel, and methods that honour the effect meet it.
+// A detail layer over a normal map: methods that honour the effect agree with the reference, which adds slopes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -43,8 +43,8 @@ Image summed(const Image& normals, const Image& layer) {
   return out;
 }
 
-double relative_difference(const Image& picture, const Image& truth) {
-  return compare_images(picture, truth, 1.0F).value().relative_rmse;
+double relative_difference(const Image& picture, const Image& reference) {
+  return compare_images(picture, reference, 1.0F).value().relative_rmse;
 }
 
 TEST(NormalLayers, TheReferenceAddsSlopesTexelByTexel) {
@@ -63,7 +63,7 @@ TEST(NormalLayers, ALayerNeedsNoNormalMapBelowIt) {
   EXPECT_LT(relative_difference(two, TestRenderer(square_scene(layer, {})).reference(16).mean), 1e-5);
 }
 
-// A texel a pixel, read at its centre.
+// One texel per pixel, read at its centre.
 TEST(NormalLayers, MethodsEqualDirectWhereNothingIsFiltered) {
   const BaseBrdf brdf{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::schlick, true};
   const Scene scene =
@@ -111,21 +111,23 @@ TEST(NormalLayers, MomentsCombineAsInThePaper) {
   }
 }
 
-// Independent layers under pixels that hold many of their texels.
+// Independent layers under pixels that cover many of their texels.
 TEST(NormalLayers, FollowTheReferenceFarAway) {
   const BaseBrdf brdf{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
   Scene scene = layered_scene(gaussian_slope_normals(512, 0.2F), gaussian_slope_normals(128, 0.25F), 5.0F,
                               {.brdf = brdf, .specular = glm::vec3(0.5F)});
   scene.materials[0].lobe_parameter = 50.0F;
   TestRenderer renderer(scene, {16, 16});
-  const Image truth = renderer.reference(1024).mean;
-  const auto error = [&](const char* name) { return relative_difference(renderer.frame(find_method(name)), truth); };
+  const Image reference = renderer.reference(1024).mean;
+  const auto error = [&](const char* name) {
+    return relative_difference(renderer.frame(find_method(name)), reference);
+  };
   Scene bare = scene;
   bare.materials[0].layer_map.reset();
   for (const char* const name : {"lean", "leadr"}) {
     EXPECT_LT(error(name), 0.1) << name;
     const Image without = TestRenderer(bare, {16, 16}).frame(find_method(name));
-    EXPECT_GT(relative_difference(without, truth), 3.0 * error(name)) << name;
+    EXPECT_GT(relative_difference(without, reference), 3.0 * error(name)) << name;
   }
   EXPECT_LT(error("toksvig"), error("naive_mip"));
 }

@@ -1,5 +1,5 @@
 // What each method makes of mean normals whose z was rebuilt from x and y at every level, as an engine does that keeps
-// a mip chain in two channels: drawn from a bake's files, beside the same bake as it is. Prints a row a method, which
+// a mip chain in two channels: drawn from a bake's files, beside the same bake as it is. Prints a row per method, which
 // scripts/two_channel_maps takes over.
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr glm::ivec2 picture_size{48, 48};
 constexpr int reference_samples = 256;
 
-// Metal: the mean normal that some take for a diffuse term alone is no part of it.
+// Metal: the mean normal that some use only for a diffuse term is not part of it.
 Scene two_channel_square() {
   Scene scene = receding_grooves();
   Material& material = scene.materials.front();
@@ -47,7 +47,7 @@ void rebuild_z(ExrChain& chain) {
   }
 }
 
-// Whether a texture of a bake is the chain of mean normals, whatever it is called.
+// Whether a texture of a bake is the chain of mean normals, under any name.
 bool holds_mean_normals(const PrefilteredTexture& texture, const std::vector<Image>& chain) {
   return texture.channels == 3 && texture.storage == Storage::fp32 && texture.levels.size() == chain.size() &&
          decode_level(texture, texture.levels.size() - 1) == chain.back();
@@ -90,8 +90,8 @@ class TwoChannelChains : public ::testing::Test {
   const float exposure_ = static_cast<float>(0.4 / covered_mean(reference_.mean));  // as a picture is shown
 };
 
-// The page's claims: who reads no mean normal does not change by a bit; who takes the spread from its length loses what
-// the texels held of it, and keeps what the filter finds between them; means that lean little change by little.
+// The page's claims. Methods that read no mean normal do not change by a bit. Methods that take the spread from its
+// length lose the texels' part of it, and keep the filter's part. Means that lean little change little.
 TEST_F(TwoChannelChains, ChangeThoseWhoReadAMeanNormal) {
   const std::set<std::string> readers{"naive_mip", "fixed_brdf", "toksvig", "roughness_bake", "specular_aa"};
   std::map<std::string, Errors> found;

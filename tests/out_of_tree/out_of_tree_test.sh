@@ -15,7 +15,7 @@ fail() {
   exit 1
 }
 
-# Fails unless FILE holds TEXT.
+# Fails unless FILE contains TEXT.
 expect() {
   grep -qF -- "$2" "$1" || fail "no \`$2\` in: $(cat -- "$1")"
 }

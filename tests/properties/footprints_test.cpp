@@ -32,7 +32,7 @@ RC_GTEST_PROP(Clipping, CoversAllOfARectangle, ()) {
   for (const WeightedFacet& facet : under.facets) RC_ASSERT(facet.share > 0.0);
 }
 
-// Halves of a rectangle hold together what the whole holds: no texel is counted twice, none is lost at the cut.
+// Halves of a rectangle together have the texels of the whole: no texel is counted twice, none is lost at the cut.
 RC_GTEST_PROP(Clipping, OfHalvesIsThatOfTheWhole, ()) {
   const Material material = any_material();
   const FootprintRect rect = any_rect();

@@ -1,5 +1,5 @@
-// Guards against what goes wrong in naive forms, each taken out in turn: its check holds with the project's own
-// function, and falls with a twin here that has the guard left out. The list is printed, with both figures:
+// Guards against the faults of naive forms, each removed in turn: its check passes with the project's own
+// function, and fails with a twin here without the guard. The list is printed, with both figures:
 //   build/release/tests/properties/footprint_guards_test
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ using std::numbers::pi;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// How far `found` is from `expected`, relative; what is no number is infinitely far.
+// The relative difference of `found` from `expected`; infinite for NaN.
 double off(double found, double expected) {
   const double error = std::abs(found - expected) / std::abs(expected);
   return std::isnan(error) ? infinite : error;
@@ -238,7 +238,7 @@ std::vector<Guard> guards() {
        off_where_narrow(value_by_dot)},
       {"cubic root in 32 bits", "Newton's steps in 1 - r", 1e-6, off_through_shortfall(vmf_shortfall),
        off_through_shortfall(shortfall_by_arc_cosine)},
-      {"r near 1 in 32 bits", "1 - r is what is kept", 1e-6, off_at_a_kappa(vmf_kappa_of_shortfall),
+      {"r near 1 in 32 bits", "1 - r is stored", 1e-6, off_at_a_kappa(vmf_kappa_of_shortfall),
        off_at_a_kappa(kappa_by_length)},
       {"M - B B^T of equal slopes", "nearest matrix without a negative eigenvalue", 1e-12,
        negative_eigenvalue(covariance), negative_eigenvalue(plain_covariance)},
@@ -259,7 +259,7 @@ std::vector<Guard> guards() {
   };
 }
 
-TEST(Guards, EachHoldsAndFallsWhereItIsTakenOut) {
+TEST(Guards, EachPassesAndFailsWithoutIt) {
   fmt::print("{:34} {:46} {:>8} {:>10} {:>10}\n", "hard case", "guard", "bound", "with it", "without");
   for (const Guard& guard : guards()) {
     fmt::print("{:34} {:46} {:8.0e} {:10.2g} {:10.2g}\n", guard.hard_case, guard.guard, guard.bound, guard.with,

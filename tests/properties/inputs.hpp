@@ -1,4 +1,4 @@
-// What properties are held over: numbers over many decades, directions, maps. All come of whole numbers, by which
+// The inputs of properties: numbers over many decades, directions, maps. All are made of whole numbers, by which
 // RapidCheck shrinks a counter-example.
 #pragma once
 

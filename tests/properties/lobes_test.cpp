@@ -91,16 +91,16 @@ RC_GTEST_PROP(ProductsOfGaussians, AreOneGaussianWithinTheStatedError, ()) {
   RC_ASSERT(std::abs(approximate_convolution(a, b) - convolution(a, b)) <= 1.6 / (sum * sum));
 }
 
-// What is false is found: the limit's bound does not hold for Gaussians that are wide.
+// A false property is found: the limit's bound is wrong for wide Gaussians.
 TEST(ProductsOfGaussiansFalse, IsFoundByRandomInputs) {
   std::ostringstream said;
   std::streambuf* const before = std::cerr.rdbuf(said.rdbuf());
-  const bool held = rc::check([] {
+  const bool passed = rc::check([] {
     const SphericalGaussian a{direction(), 5.0}, b{direction(), 5.0};
     RC_ASSERT(std::abs(approximate_convolution(a, b) - convolution(a, b)) <= 1.45 / 100.0);
   });
   std::cerr.rdbuf(before);
-  EXPECT_FALSE(held);
+  EXPECT_FALSE(passed);
   EXPECT_NE(said.str().find("Falsifiable"), std::string::npos) << said.str();
 }
 

@@ -74,7 +74,7 @@ std::string part_of(const ShaderModule& module, std::string_view from, std::stri
 struct ShaderGuard {
   std::string_view hard_case, guard;
   std::string functions;
-  std::string_view with, without;  // a text of `functions`, which it has once, and what stands there in its place
+  std::string_view with, without;  // a text of `functions`, which it has once, and its replacement
   std::string_view body;           // of the probe; the first component counts
   Input input;
   double expected, bound;  // the latter relative, or as it is where 0 is expected
@@ -197,7 +197,7 @@ std::vector<ShaderGuard> term_guards() {
            "size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0)", "mean / size", "return vec4(storedMeanNormal(a.xyz).z);",
            no_input, 1.0, 0.0},
           {"equal normals' length in 32 bits",
-           "three last places are no spread",
+           "three last places are not a spread",
            functions_with("//? include length_shortfall.glsl\n"),
            "if (shortfall <= rounding) return 0.0;\n  return shortfall - rounding * (rounding / shortfall);",
            "return shortfall;",
@@ -243,7 +243,7 @@ std::vector<ShaderGuard> slope_guards() {
            std::numbers::sqrt2 / 2.0,
            1e-3},
           {"a lobe of no slope variance, 1 / 0",
-           "variance that moments can tell",
+           "variance that moments can resolve",
            slopes,
            "max(variance, 1e-7 * (1.0 + slope2))",
            "variance",
@@ -349,7 +349,7 @@ std::vector<ShaderGuard> coat_guards() {
            0.04 / (4.0 * pi),
            1e-5},
           {"a mirror's equal normals in 32 bits",
-           "three last places are no spread",
+           "three last places are not a spread",
            coat,
            "shortfallOfLength(size, rounding_of_floats)",
            "max(1.0 - size, 0.0)",
@@ -386,7 +386,7 @@ std::vector<ShaderGuard> coat_guards() {
            0.0}};
 }
 
-TEST(ShaderGuards, EachHoldsAndFallsWhereItIsTakenOut) {
+TEST(ShaderGuards, EachPassesAndFailsWithoutIt) {
   fmt::print("{:38} {:46} {:>8} {:>10} {:>10}\n", "hard case", "guard in a shader", "bound", "with it", "without");
   for (const auto& guards : {lobe_guards(), term_guards(), slope_guards(), method_guards(), coat_guards()}) {
     for (const ShaderGuard& guard : guards) {

@@ -12,7 +12,7 @@
 namespace footprint {
 namespace {
 
-/// How one made-up method behaves: its error at distance 1 and by how much it grows per distance, and its price.
+/// The behaviour of one made-up method: its error at distance 1 and by how much it grows per distance, and its price.
 struct Behaviour {
   const char* method;
   double error, growth, milliseconds;
@@ -81,7 +81,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   return record;
 }
 
-/// Every kind of outcome; `text` stands wherever a file or a paper may have put its own.
+/// Every kind of outcome; `text` replaces every text of a file or a paper.
 ExperimentReport example_experiment(const std::string& text) {
   return {.name = "example",
           .title = "A made-up experiment" + text,
@@ -111,7 +111,7 @@ ExperimentReport example_experiment(const std::string& text) {
                       .right = 0.021,
                       .figures = {{"error(toksvig)", 0.011, true}, {"error(direct)", 0.021, false}}},
                      {.name = "undecided",
-                      .text = "Nobody knows.",
+                      .text = "It is unknown.",
                       .inequality = "precompute(toksvig) < 300",
                       .expect = Verdict::not_reproduced,
                       .outcome = Verdict::undecided,

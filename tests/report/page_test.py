@@ -97,7 +97,7 @@ class Browser:
             file.write_bytes(base64.b64decode(png))
         return self.wait_for("""new Promise((done, failed) => {
           const image = new Image();
-          image.onerror = () => failed(new Error('the screenshot is no picture'));
+          image.onerror = () => failed(new Error('the screenshot is not an image'));
           image.onload = () => {
             const canvas = Object.assign(document.createElement('canvas'), {width: 160, height: 112});
             const context = canvas.getContext('2d');
@@ -160,7 +160,7 @@ def check_first_sight(browser):
 
 
 def check_sparkle(browser):
-    """The reference's histogram and one a method, of all object pixels; bins without any lie at the foot."""
+    """The reference's histogram and one per method, of all object pixels; bins without any lie at the foot."""
     series = browser.run("""return Chart.getChart('sparkle').data.datasets.map(
         (set) => [set.label, set.data.map((point) => point.count)])""")
     assert [label for label, _ in series] == ["reference", "direct", "naive_mip", "toksvig", "toksvig:storage=unorm8"]
@@ -194,7 +194,7 @@ def check_slider(browser):
     before = browser.run(edge)
     browser.drag(".compare", [0, -40, -120])
     dragged, moved = float(browser.run(split).rstrip("%")), before - browser.run(edge)
-    assert dragged < 40, f"the split stands at {dragged}% after the drag"
+    assert dragged < 40, f"the split is at {dragged}% after the drag"
     assert abs(moved - 120) < 8, f"the line moved by {moved} pixels for a drag of 120"
     clip = browser.run("return getComputedStyle(document.querySelector('.compare .over')).clipPath")
     assert f"{dragged:g}%" in clip, clip
@@ -249,7 +249,7 @@ def check_pairs(browser):
     assert len(cells) == 20 and [cells[i] for i in (1, 7, 13, 19)] == ["–"] * 4, cells
     assert (cells[2], cells[6]) == ("0.0%", "20.0%"), cells
     hidden = "return document.getElementById('pair-view').hidden"
-    assert browser.run(hidden), "a pair is shown that nobody chose"
+    assert browser.run(hidden), "a pair is shown without a choice"
     browser.click("#pairs tbody tr:nth-child(2) td:nth-child(4) button")
     wait_for_pictures(browser)
     assert not browser.run(hidden)
@@ -304,7 +304,7 @@ def check_looks(browser, folder):
 
 
 def check_front(browser):
-    """Along the front time rises and error falls, and no point lies left of it and below."""
+    """Along the front time rises and error falls, and no point is left of it and below."""
     front, points = browser.run("""const sets = Chart.getChart('plot').data.datasets;
         return [sets.find((set) => set.label === 'Pareto front').data,
                 sets.filter((set) => set.whiskers).flatMap((set) => set.data)]""")
@@ -335,7 +335,7 @@ def check_filters(browser, folder):
     browser.wait_for("new Promise((done) => setTimeout(done, 200))")
     assert browser.run(cells) == seen, "the address does not bring back what was seen"
     assert browser.run("return document.querySelector('#distances input:checked').value") == "4"
-    browser.run("location.hash = 'distance=3&without=nobody&sort=nothing'")
+    browser.run("location.hash = 'distance=3&without=unknown&sort=nothing'")
     browser.wait_for("new Promise((done) => setTimeout(done, 200))")
     assert browser.run(rows) == 4, "words of another page are passed over"
 
@@ -412,7 +412,7 @@ def check_example(browser, folder):
 
 
 def check_one_file(browser, folder):
-    """The page with its pictures in it, alone in a folder: all are seen, and nothing is asked for."""
+    """The page with its pictures in it, alone in a folder: all are seen, and nothing is requested."""
     sent = folder / "sent"
     sent.mkdir(exist_ok=True)
     program = pathlib.Path(__file__).parents[2] / "scripts" / "one_file"
@@ -423,11 +423,11 @@ def check_one_file(browser, folder):
     assert widths == [256] * 12, widths
     assert_asks_for_nothing(browser)
     refused = subprocess.run([program, __file__, "-o", sent / "none.html"], check=False, capture_output=True)
-    assert refused.returncode == 2 and b"is no page" in refused.stderr and not (sent / "none.html").exists()
+    assert refused.returncode == 2 and b"is not a page" in refused.stderr and not (sent / "none.html").exists()
 
 
 def assert_asks_for_nothing(browser):
-    """No request to any host, whatever was shown: what was fetched lies on this disk or in the page."""
+    """No request to any host: everything shown was on this disk or in the page."""
     fetched = browser.run("return performance.getEntriesByType('resource').map((entry) => entry.name)")
     assert all(name.startswith(("file:", "data:")) for name in fetched), fetched
 

@@ -1,4 +1,4 @@
-"""Holds docs/results.schema.json and results.json, or docs/matrix.schema.json and matrix.json, against each other.
+"""Compares docs/results.schema.json with results.json, or docs/matrix.schema.json with matrix.json.
 
 schema_test.py SCHEMA PROGRAM    with the examples that PROGRAM writes
 schema_test.py SCHEMA X.json     with a run's own results
@@ -41,7 +41,7 @@ MATRIX_CHANGES = {
     "no members": lambda d: d.update(members=[]),
     "no experiment": lambda d: d.update(experiment=None),
     "a member without its folder": lambda d: d["members"][0].pop("folder"),
-    "a coordinate that is no text": lambda d: d["members"][0]["coordinates"].update(seed=1),
+    "a coordinate that is not text": lambda d: d["members"][0]["coordinates"].update(seed=1),
     "a member without records": lambda d: d["members"][0].update(records=0),
     "a threshold without its limit": lambda d: d["experiment"]["thresholds"][0].pop("limit"),
     "a number for what was left out": lambda d: d.update(left_out=[1]),
@@ -60,7 +60,7 @@ FILM_CHANGES = {
     "an error above 1": lambda d: d["records"][4]["error"].update(normalized_color=1.5),
     "a negative highlight": lambda d: d["records"][0].update(highlight_energy=-1),
     "half a frame": lambda d: d["records"][0].update(frame=0.5),
-    "an angle that is no number": lambda d: d["records"][0].update(degrees=None),
+    "an angle that is not a number": lambda d: d["records"][0].update(degrees=None),
     "no pixels": lambda d: d["records"][0].pop("pixels"),
     "one time of three": lambda d: d["records"][0]["time"]["frame_ms"].update(p90=1),
 }
@@ -85,7 +85,7 @@ def broken(document):
         "a ratio of 0": lambda d: d["records"][0]["time"]["ratio_to_direct"].update(min=0),
         "an option that is a list": lambda d: d["records"][0]["options"].update(probes=[1]),
         "a bound of another kind": lambda d: d["records"][0].update(equivalent_bound="many"),
-        "samples that are no whole number": lambda d: d["reference"].update(spp=1.5),
+        "samples that are not a whole number": lambda d: d["reference"].update(spp=1.5),
         "no sample": lambda d: d["reference"].update(spp=0),
         "a frame before the first": lambda d: d["records"][0].update(frame=-1),
         "half a frame": lambda d: d["records"][0].update(frame=1.5),
@@ -93,7 +93,7 @@ def broken(document):
         "no width": lambda d: d["records"][0].update(size=[0, 512]),
         "no pictures": lambda d: d["records"][0].pop("images"),
         "an option that is neither number nor text": lambda d: d["records"][0]["options"].update(probes=True),
-        "records that are no list": lambda d: d.update(records={}),
+        "records that are not a list": lambda d: d.update(records={}),
         "a number for a warning": lambda d: d["scene"].update(warnings=[1]),
         "a number for a flag": lambda d: d["records"][0]["precompute"].update(cached=1),
         "another timing of frame builds": lambda d: d["records"][0]["time"].update(frame_build="sometimes"),
@@ -114,7 +114,7 @@ def changed(document, changes):
 
 
 def agree(document):
-    """What is told of claims and thresholds is what their figures say."""
+    """The outcomes of claims and thresholds agree with their figures."""
     experiment = document["experiment"] or {"claims": [], "thresholds": []}
     for claim in experiment["claims"]:
         assert claim["as_expected"] == (claim["outcome"] == claim["expect"]), claim["name"]
@@ -124,7 +124,7 @@ def agree(document):
 
 
 def documents(schema_file, source):
-    """The documents to hold against the schema, each with its name."""
+    """The documents to compare with the schema, each with its name."""
     if source.endswith(".json"):
         yield source, json.loads(pathlib.Path(source).read_text(encoding="utf-8"))
         return
@@ -146,7 +146,7 @@ def main(schema_file, source):
         agree(document)
         for name, wrong in broken(document):
             assert not validator.is_valid(wrong), f"{title}: the schema takes {name}"
-    print("what is written holds to its schema, and broken documents do not")
+    print("documents match their schema, and broken documents do not")
 
 
 if __name__ == "__main__":

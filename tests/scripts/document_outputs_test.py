@@ -1,4 +1,4 @@
-"""What the documents print is what the program prints: examples are run, and lists of names and options are compared.
+"""The documents show the program's output: examples are run, and lists of names and options are compared.
 
 CONTRIBUTING.md ("Examples in documents") describes how an example is written.
 """
@@ -18,7 +18,7 @@ PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
 FENCE = re.compile(r"(?P<slow>^<!-- slow -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 N = r"[-+]?\d+(?:\.\d+)?"
-# What a clock measured: "1.6 (1.5-1.7)", "1.6 times", "0.3 s", "12 ms".
+# Times: "1.6 (1.5-1.7)", "1.6 times", "0.3 s", "12 ms".
 TIMES = re.compile(rf"{N} \({N}-{N}\)|<?{N}(?= (?:times|s|ms)\b)")
 TOLERANCE = 0.02  # between kinds of processors
 ROUNDING = 1e-6
@@ -74,7 +74,7 @@ def difference_after(count, shown, printed):
 
 
 def first_difference(shown, printed):
-    """The first line that differs; None if all agree. "..." stands for any lines."""
+    """The first line that differs; None if all agree. "..." matches any lines."""
     found = difference_after(0, shown, printed)
     return found and found[1]
 
@@ -163,7 +163,7 @@ def code(cell):
 
 
 def option_fault(option, default, values):
-    """How a method's option differs from its row; None if it does not."""
+    """The difference of a method's option from its row; None without one."""
     own_default = option["default"] if isinstance(option["default"], str) else f"{option['default']:g}"
     if own_default not in (code(default) or default.split(" ")):
         return f"{option['name']}: default {own_default}, shown {default}"

@@ -22,7 +22,7 @@ def check(folder):
 
 
 class Documents(unittest.TestCase):
-    def told(self, **changed):
+    def lines_of(self, **changed):
         """The lines printed of the whole documents with some of them changed."""
         with tempfile.TemporaryDirectory() as name:
             for path, text in {**WHOLE, **changed}.items():
@@ -38,35 +38,35 @@ class Documents(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_whole_documents_pass(self):
-        self.assertEqual(self.told(), (0, ["4 documents agree; the sources have 0 lines in 0 files"]))
+        self.assertEqual(self.lines_of(), (0, ["4 documents agree; the sources have 0 lines in 0 files"]))
 
-    def test_a_link_to_nothing_is_told(self):
-        lines = self.told(**{"README.md": "\n[gone](docs/gone.md)\n"})
+    def test_a_link_to_nothing_is_reported(self):
+        lines = self.lines_of(**{"README.md": "\n[gone](docs/gone.md)\n"})
         self.assertEqual(lines, (1, ["README.md:2: docs/gone.md leads nowhere"]))
 
-    def test_a_heading_that_is_not_there_is_told(self):
-        lines = self.told(**{"README.md": "[a page](docs/page.md#the-third-part)\n"})
+    def test_a_missing_heading_is_reported(self):
+        lines = self.lines_of(**{"README.md": "[a page](docs/page.md#the-third-part)\n"})
         self.assertEqual(lines, (1, ["README.md:1: docs/page.md has no heading #the-third-part"]))
 
-    def test_a_page_that_the_map_lacks_is_told(self):
-        lines = self.told(**{"docs/new.md": "# New\n"})
+    def test_a_page_that_the_map_lacks_is_reported(self):
+        lines = self.lines_of(**{"docs/new.md": "# New\n"})
         self.assertEqual(lines, (1, ["docs/README.md:1: new.md is not in the map"]))
 
-    def test_versions_that_differ_are_told(self):
-        code, lines = self.told(**{"CITATION.cff": "version: 1.2.2\n", "CHANGELOG.md": "# Changes\n"})
+    def test_versions_that_differ_are_reported(self):
+        code, lines = self.lines_of(**{"CITATION.cff": "version: 1.2.2\n", "CHANGELOG.md": "# Changes\n"})
         self.assertEqual(code, 1)
         self.assertEqual(lines, ["CITATION.cff:1: version 1.2.2, where CMakeLists.txt has 1.2.3",
                                  "CHANGELOG.md:1: version none, where CMakeLists.txt has 1.2.3"])
 
     def test_a_word_that_has_a_plainer_one_is_reported_with_it(self):
-        code, lines = self.told(**{"README.md": "A test\nholds 64 Samples a pixel.\n", "docs/page.md": "Likewise, lobes a\npixel.\n"})
+        code, lines = self.lines_of(**{"README.md": "A test\nholds 64 Samples a pixel.\n", "docs/page.md": "Likewise, lobes a\npixel.\n"})
         self.assertEqual(code, 1)
         self.assertEqual(lines, ["README.md:2: `holds`: better check, compare, contain, store, pass or fit",
                                  "README.md:2: `Samples a pixel`: better per", "docs/page.md:1: `Likewise`: better also",
                                  "docs/page.md:1: `lobes a pixel`: better per"])
 
     def test_words_of_strings_count_and_those_of_code_do_not(self):
-        code, lines = self.told(**{"app/a.cpp": '// held\n#include "told.hpp"\nconst char* held = "bakes \\"anew\\"";\n',
+        code, lines = self.lines_of(**{"app/a.cpp": '// held\n#include "told.hpp"\nconst char* held = "bakes \\"anew\\"";\n',
                                    "results/report/b.js": "// held\nlet told = 'mend'\n",
                                    "results/report/c.html": "<p class='held'>dear</p>\n"})
         self.assertEqual(code, 1)
@@ -77,15 +77,15 @@ class Documents(unittest.TestCase):
         text = "`held` [it](docs/held.md)\n\n```\nheld\n```\n"
         files = {"README.md": text, "docs/README.md": "[a](page.md) [b](held.md) [c](reproduction.md)\n",
                  "docs/held.md": "# Page\n", "docs/reproduction.md": "held\n"}
-        self.assertEqual(self.told(**files), (0, ["6 documents agree; the sources have 0 lines in 0 files"]))
+        self.assertEqual(self.lines_of(**files), (0, ["6 documents agree; the sources have 0 lines in 0 files"]))
 
     def test_sources_are_counted_without_tests(self):
         files = {"renderer/a.cpp": "1\n2\n", "renderer/a_test.cpp": "1\n", "scripts/b": "1\n", "docs/c.py": "1\n"}
-        self.assertEqual(self.told(**files), (0, ["4 documents agree; the sources have 3 lines in 2 files"]))
+        self.assertEqual(self.lines_of(**files), (0, ["4 documents agree; the sources have 3 lines in 2 files"]))
 
     def test_sources_above_the_ceiling_are_reported(self):
         for files in ({"app/a.cpp": 73_001 * "\n"}, {f"app/{i}.cpp": "" for i in range(901)}):
-            code, lines = self.told(**files)
+            code, lines = self.lines_of(**files)
             self.assertEqual(code, 1)
             self.assertRegex(lines[0], "lines in [0-9]+ sources: [0-9]+ lines in [0-9]+ are allowed")
 

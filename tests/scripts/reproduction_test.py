@@ -1,4 +1,4 @@
-"""scripts/reproduction and scripts/reference_floors: the document is made of results, faults in it are told, floors too."""
+"""scripts/reproduction and scripts/reference_floors: the document is made of results, faults in it are reported, floors too."""
 import json
 import os
 import pathlib
@@ -43,16 +43,16 @@ class Tree(unittest.TestCase):
 
 
 class Floors(Tree):
-    def told(self, document):
+    def lines_of(self, document):
         done = script("reference_floors", self.write("e", document))
         return done.returncode, done.stdout.splitlines()
 
     def test_a_floor_under_a_third_passes(self):
-        code, lines = self.told(results(0.01, 0.02, floor=0.0033))
+        code, lines = self.lines_of(results(0.01, 0.02, floor=0.0033))
         self.assertEqual((code, lines[-1]), (0, "1 of 1 claims have a floor under a third of their difference"))
 
-    def test_a_floor_above_a_third_is_told_with_the_samples_that_would_do(self):
-        code, lines = self.told(results(0.01, 0.02, floor=0.02 / 3))
+    def test_a_floor_above_a_third_is_reported_with_the_samples_that_would_do(self):
+        code, lines = self.lines_of(results(0.01, 0.02, floor=0.02 / 3))
         self.assertEqual(code, 1)
         self.assertIn("n  difference 0.01000  floor 0.00667  not converged with 64 samples per pixel; 256 would do", lines[0])
 
@@ -61,13 +61,13 @@ class Floors(Tree):
                            "abs(energy_bias(b)) < 0.1"):
             with self.subTest(inequality):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                code, lines = self.told(results(0.01, 0.02, floor=1.0, inequality=inequality))
+                code, lines = self.lines_of(results(0.01, 0.02, floor=1.0, inequality=inequality))
                 self.assertEqual((code, len(lines)), (0, 1))
 
     def test_selectors_choose_the_records(self):
         document = results(0.01, 0.02, floor=0.001, inequality="error(a:x=1, frame=0) < error(b, distance=1)")
         document["records"].append({**record("b", 1, 1.0), "frame": 1, "distance": 2})
-        self.assertEqual(self.told(document)[0], 0)
+        self.assertEqual(self.lines_of(document)[0], 0)
 
     def test_what_is_no_measurement_is_refused(self):
         self.assertEqual(script("reference_floors", self.write("e", results(0.1, 0.2, quick=True))).returncode, 2)
@@ -106,7 +106,7 @@ class Document(Tree):
         self.assertIn("Not measured in this run.", self.text)
         self.assertIn("| Figure 3 | a drawing: why components", self.text)
 
-    def test_a_claim_that_is_missing_changed_or_no_more_is_told(self):
+    def test_a_claim_that_is_missing_changed_or_no_more_is_reported(self):
         row = next(line for line in self.text.splitlines() if "0.01 against 0.02" in line)
         name = row.split("`")[1]
         self.assertEqual(self.faults(self.text.replace(row + "\n", "")), [f"{NAME}: the claim {name} is not in the document"])
@@ -116,11 +116,11 @@ class Document(Tree):
                          [f"{NAME}: the document has 2 claims, its file 1"])
         self.assertEqual(self.faults(self.text.replace(f"#### `{NAME}`", "#### gone")), [f"{NAME}: is not in the document"])
 
-    def test_an_experiment_that_shows_no_figure_is_told(self):
+    def test_an_experiment_that_shows_no_figure_is_reported(self):
         shutil.copy(SOURCE / "experiments" / f"{NAME}.toml", self.folder / "experiments/tan2005_new.toml")
         self.assertEqual(self.faults(), ["figures.toml: tan2005_new shows no figure"])
 
-    def test_a_figure_that_is_not_told_of_is_told(self):
+    def test_a_figure_without_a_text_is_reported(self):
         file = self.folder / "results/published/figures.toml"
         more = '\n[[figure]]\npaper = "xu2017"\nname = "Figure 9"\nshows = "nothing"\n'
         file.write_text(file.read_text(encoding="utf-8") + more, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What the checks of scripts/ and packaging/ refuse: a changed picture, an archive that is too large, missing output."""
+"""The checks of scripts/ and packaging/ refuse: a changed picture, an archive that is too large, missing output."""
 import collections
 import importlib.machinery
 import importlib.util
@@ -14,7 +14,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
 
-# Stands for the program: writes pictures whose bytes are those of the file beside it.
+# Replaces the program: writes pictures whose bytes are those of the file beside it.
 PROGRAM = """#!/bin/sh
 while [ "$1" != "-o" ]; do shift; done
 mkdir -p "$2/images"
@@ -24,7 +24,7 @@ cp "$(dirname "$0")"/pictures/* "$2/images/"
 
 def module(path):
     name = path.name.removesuffix(".py")
-    sys.path.insert(0, str(path.parent))  # what it imports lies beside it
+    sys.path.insert(0, str(path.parent))  # its imports are next to it
     loader = importlib.machinery.SourceFileLoader(name, str(path))
     made = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
     loader.exec_module(made)
@@ -75,7 +75,7 @@ class PictureHashes(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout, "bumps/b.exr: not rendered any more\nbumps/c.exr: was not recorded\n")
 
-    def test_a_program_that_fails_is_told(self):
+    def test_a_program_that_fails_is_reported(self):
         (self.folder / "program").write_text("#!/bin/sh\necho broken >&2\nexit 3\n", encoding="utf-8")
         done = self.run_script("check")
         self.assertNotEqual(done.returncode, 0)
@@ -91,7 +91,7 @@ class PortableArchive(InFolder):
         self.tree.mkdir()
         (self.tree / "file").write_bytes(os.urandom(1 << 16))
 
-    def test_an_archive_under_the_limit_is_kept(self):
+    def test_an_archive_under_the_limit_stays(self):
         self.portable.pack(self.tree, self.folder / "small.tar.xz", self.portable.LIMIT)
         self.assertTrue((self.folder / "small.tar.xz").exists())
 
@@ -130,7 +130,7 @@ class ExpectedOutput(InFolder):
             (self.folder / name).write_text("x", encoding="utf-8")
 
 
-# Stands for the program: recommends `quick_choice` or, exhaustively, `whole_choice` of the folder beside it.
+# Replaces the program: recommends `quick_choice` or, exhaustively, `whole_choice` of the folder beside it.
 ADVISER = """#!/bin/sh
 here=$(dirname "$0"); choice=quick_choice
 for word in "$@"; do [ "$word" = --exhaustive ] && choice=whole_choice; done
@@ -141,7 +141,7 @@ mkdir -p "$2" && cp "$here/$choice" "$2/recommend.json"
 
 
 class CheckRecommendations(InFolder):
-    """What was measured is kept and not measured again; what differs, and what fails, is told."""
+    """Finished runs are stored and not repeated; differences and failures are reported."""
 
     def setUp(self):
         super().setUp()
@@ -163,7 +163,7 @@ class CheckRecommendations(InFolder):
                               env={**os.environ, "FOOTPRINT_PROGRAM": str(self.folder / "program")},
                               capture_output=True, text=True, check=False)
 
-    def test_runs_that_are_kept_are_not_repeated(self):
+    def test_stored_runs_are_not_repeated(self):
         for _ in range(2):
             done = self.check("--small", "bumps", "scales")
             self.assertEqual((done.returncode, done.stdout), (0, "bumps: agrees\nscales: agrees\n"))
@@ -171,13 +171,13 @@ class CheckRecommendations(InFolder):
         self.assertEqual(len(calls), 4)
         self.assertTrue(all("--size 64x64" in call for call in calls))
 
-    def test_another_choice_is_told(self):
+    def test_another_choice_is_reported(self):
         self.choose("whole", 1)
         done = self.check("bumps")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout, "^bumps: stone: direct .* exhaustively lean ")
 
-    def test_a_run_that_fails_is_told_and_leaves_nothing_that_counts(self):
+    def test_a_run_that_fails_is_reported_and_leaves_nothing_that_counts(self):
         (self.folder / "program").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
         done = self.check("bumps")
         self.assertEqual((done.returncode, done.stdout), (1, "bumps: could not be measured\n"))
@@ -236,7 +236,7 @@ class RunCosts(InFolder):
         self.assertIn("--size 64x64", (self.folder / "app/calls").read_text(encoding="utf-8"))
 
     @unittest.skipUnless(pathlib.Path("/usr/share/assimp/models/glTF2/ClearCoat-glTF").exists(), "no ClearCoatTest")
-    def test_a_failed_run_is_told_and_the_others_go_on(self):
+    def test_a_failed_run_is_reported_and_the_others_go_on(self):
         done, rows = self.table()
         self.assertEqual(done.returncode, 1)
         self.assertEqual([name for name, cells in rows.items() if cells[0] == "failed"], ["the same, `--without environment_light`"])
@@ -435,7 +435,7 @@ class AccuracyVsTime(InFolder):
         self.assertIn("| `trilinear` | 0.03 | 3 | `cells`, 4 | 0.05 | 5 |", page)
         self.assertIn("the closest is 5 times as far off as exact filtering", page)
         self.assertIn("their kernels alone are 3 times off", page)
-        self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page, "it is no scene of the study")
+        self.assertIn("| cells * | trilinear | 4 | 0.05 ×/÷ 1.00 |", page, "it is not a scene of the study")
         for name in self.filters:
             self.write(name, "bound", by_filter=0.015)
         self.assertNotIn("their kernels alone", self.run_script().stdout)

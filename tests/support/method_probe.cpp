@@ -71,12 +71,12 @@ std::vector<double> probe_ndf(const ProbedMethod& probed, const std::vector<glm:
   return out;
 }
 
-double relative_l2(const std::vector<double>& density, const std::vector<double>& truth) {
+double relative_l2(const std::vector<double>& density, const std::vector<double>& exact) {
   double sum = 0;
   double norm = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += (density[i] - truth[i]) * (density[i] - truth[i]);
-    norm += truth[i] * truth[i];
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    sum += (density[i] - exact[i]) * (density[i] - exact[i]);
+    norm += exact[i] * exact[i];
   }
   return std::sqrt(sum / norm);
 }

@@ -30,8 +30,8 @@ struct ProbedMethod {
 /// The method's `ndf` at unit vectors.
 [[nodiscard]] std::vector<double> probe_ndf(const ProbedMethod& probed, const std::vector<glm::dvec3>& directions);
 
-/// |density - truth| over |truth|.
-[[nodiscard]] double relative_l2(const std::vector<double>& density, const std::vector<double>& truth);
+/// |density - exact| over |exact|.
+[[nodiscard]] double relative_l2(const std::vector<double>& density, const std::vector<double>& exact);
 
 /// A grid over the upper hemisphere, cells of equal solid angle 2 pi / size: rings of equal height, cut into sectors.
 [[nodiscard]] std::vector<glm::dvec3> hemisphere_grid(int rings, int sectors);

@@ -91,7 +91,7 @@ void require_no_threads() {
   _exit(code);
 }
 
-// Waits for the end of `child`, interrupting it when asked and killing it at the timeout.
+// Waits for the end of `child`, interrupting it on request and killing it at the timeout.
 int wait_for(pid_t child, const ProcessRequest& request, const fs::path& errors, bool& interrupted) {
   const auto deadline = Clock::now() + request.timeout;
   int status = 0;

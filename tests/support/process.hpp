@@ -15,15 +15,15 @@ namespace footprint::test {
 /// A program as a function: argc, argv to exit code.
 using ProgramFunction = int (*)(int, const char* const*);
 
-/// How a process is started and what happens to it.
+/// The start, limits and interruption of a process.
 struct ProcessRequest {
   std::vector<std::string> command;                  ///< the program's path, then its arguments
   ProgramFunction function = nullptr;                ///< run in place of the program, in a fork of this process
-  std::filesystem::path folder;                      ///< scratch, exists; its texts are kept here while it runs
+  std::filesystem::path folder;                      ///< scratch, exists; stores its texts while it runs
   std::map<std::string, std::string> environment{};  ///< added to the caller's
   std::filesystem::path standard_output{};           ///< a file or device instead of the text that comes back
-  std::optional<std::uint64_t> file_size_limit{};    ///< bytes that one file may have: stands for a full disk
-  std::string interrupt_at{};                        ///< SIGINT is sent once standard error holds this text
+  std::optional<std::uint64_t> file_size_limit{};    ///< bytes that one file may have: simulates a full disk
+  std::string interrupt_at{};                        ///< SIGINT is sent once standard error contains this text
   std::chrono::seconds timeout{120};
 };
 

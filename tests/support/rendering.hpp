@@ -16,8 +16,8 @@ namespace footprint::testing {
 /// The EGL surfaceless context that all tests of a binary share; made on the first call.
 [[nodiscard]] const gl::Context& shared_context();
 
-/// A scene uploaded with its own effects, or with `effects` if given. Bakes and compiled programs are kept, so a second
-/// image of the same method costs only its frame.
+/// A scene uploaded with its own effects, or with `effects` if given. Bakes and compiled programs are reused, so a
+/// second image of the same method costs only its frame.
 class TestRenderer {
  public:
   explicit TestRenderer(const Scene& scene, const glm::ivec2& size = {64, 64}, std::optional<EffectSet> effects = {},

@@ -7,7 +7,7 @@
 
 namespace footprint::test {
 
-/// Succeeds where `expected` stands somewhere in `text`; a failure shows both.
+/// Succeeds if `text` contains `expected`; a failure shows both.
 [[nodiscard]] inline ::testing::AssertionResult says(std::string_view text, std::string_view expected) {
   if (text.find(expected) != std::string_view::npos) {
     return ::testing::AssertionSuccess() << "`" << text << "` says `" << expected << "`";

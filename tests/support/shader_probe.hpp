@@ -1,4 +1,4 @@
-// GLSL functions evaluated over a list of inputs, so that a test can hold them against golden numbers and C++ twins.
+// GLSL functions evaluated over a list of inputs, so that a test can compare them with golden numbers and C++ twins.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// Scenes whose shadows geometry tells: bodies over a floor.
+// Scenes whose shadows are known from geometry: bodies over a floor.
 #pragma once
 
 #include "renderer/scene/scene.hpp"

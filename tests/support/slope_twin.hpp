@@ -15,7 +15,7 @@ namespace footprint::testing {
 /// The mean of the base lobes about all valid texels of a material with one lobe.
 [[nodiscard]] double mean_facet_density(const Material& material, const glm::dvec3& h);
 
-/// Mean slope, covariance of the texels' slopes and the base lobe that stands on each of them.
+/// Mean slope, covariance of the texels' slopes and the base lobe about each of them.
 struct SlopeTwin {
   glm::dvec2 mean;
   glm::dmat2 spread;
@@ -30,7 +30,7 @@ struct SlopeTwin {
   [[nodiscard]] double gaussian(const glm::dvec3& h) const;
 };
 
-/// Of all texels of a material that has a normal map and a lobe parameter.
+/// The twin over all texels of a material that has a normal map and a lobe parameter.
 [[nodiscard]] SlopeTwin slope_twin_of(const Material& material);
 
 }  // namespace footprint::testing

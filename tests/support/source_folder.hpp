@@ -1,4 +1,4 @@
-// Where the repository lies, for tests that read its scenes and documents.
+// The folder of the repository, for tests that read its scenes and documents.
 #pragma once
 
 #include <filesystem>

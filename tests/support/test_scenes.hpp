@@ -37,7 +37,7 @@ struct SquareMaterial {
 [[nodiscard]] Material lobe_material(const Image& normals, NormalDistribution distribution, float lobe,
                                      GeometryTerm geometry = GeometryTerm::none);
 
-/// The unit normal that a texel of a normal map stands for.
+/// The unit normal that a texel of a normal map stores.
 [[nodiscard]] glm::dvec3 normal_at(const Image& normals, int x, int y);
 
 /// That square with random grooves along y, 64 across, seen obliquely along them: pixels are long where nothing

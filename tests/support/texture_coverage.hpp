@@ -10,8 +10,8 @@
 
 namespace footprint::testing {
 
-/// For each cell of a grid of `side` x `side` over the unit square, row by row: the triangles that its centre lies
-/// inside of, edges not counted.
+/// For each cell of a grid of `side` x `side` over the unit square, row by row: the triangles around its
+/// centre, edges not counted.
 [[nodiscard]] inline std::vector<int> texture_coverage(const Mesh& mesh, int side) {
   std::vector<int> counts(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
   const auto turn = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };

@@ -60,7 +60,7 @@ TEST(FacetSum, IsTheSumOverPlanes) {
 }
 
 // At its own directions the table is the sum.
-TEST(DenseTable, HoldsTheSumAndInterpolatesIt) {
+TEST(DenseTable, StoresTheSumAndInterpolatesIt) {
   const Material material = patch_material(patch_of("grooves"), blinn_phong, 20.0F);
   TableSettings settings = table_settings(material, Options(option_table(), {{"facets", "2000"}}, "test"), {});
   const Patch& patch = material.microgeometry->patch;
@@ -71,15 +71,15 @@ TEST(DenseTable, HoldsTheSumAndInterpolatesIt) {
                        direction_grid(5), no_progress);
     for (const std::size_t i : {0U, 7U, 12U, 24U}) {
       for (const std::size_t o : {3U, 12U, 20U}) {
-        const glm::dvec3 truth = sum(i, o);
-        EXPECT_NEAR(table(sum.directions()[i], sum.directions()[o]).y, truth.y, 1e-5 * (1.0 + truth.y));
+        const glm::dvec3 expected = sum(i, o);
+        EXPECT_NEAR(table(sum.directions()[i], sum.directions()[o]).y, expected.y, 1e-5 * (1.0 + expected.y));
       }
     }
   }
   EXPECT_EQ(DenseTable::byte_count(5, 3), 625U * 12U);
 }
 
-// Few planes: the lobes hold them and the table of the same size does not; a larger table comes nearer.
+// Few planes: the lobes represent them and the table of the same size does not; a larger table comes nearer.
 TEST(BrdfFigures, LobesAgainstTables) {
   const Material material = patch_material(patch_of("grooves"), blinn_phong, 200.0F);
   const std::map<std::string, std::string> options{{"facets", "8192"}};

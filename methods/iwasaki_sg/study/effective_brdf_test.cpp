@@ -37,10 +37,10 @@ double shader_difference(const Material& material, const std::map<std::string, s
                             "return vec4(shade(e, Surface(vec3(0), vec3(1)), a.xyz, b.xyz).specular, 0);", inputs);
   double largest = 0.0, away = 0.0;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    const glm::dvec3 truth = brdf(glm::dvec3(glm::vec3(inputs[k][0])), glm::dvec3(glm::vec3(inputs[k][1])));
+    const glm::dvec3 expected = brdf(glm::dvec3(glm::vec3(inputs[k][0])), glm::dvec3(glm::vec3(inputs[k][1])));
     for (int c = 0; c < 3; ++c) {
-      largest = std::max(largest, truth[c]);
-      away = std::max(away, std::abs(truth[c] - found[k][c]));
+      largest = std::max(largest, expected[c]);
+      away = std::max(away, std::abs(expected[c] - found[k][c]));
     }
   }
   return away / largest;

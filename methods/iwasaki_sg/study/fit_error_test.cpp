@@ -49,7 +49,7 @@ TableSettings small() {
   return settings;
 }
 
-// A plane is one normal, which its lobe stands for.
+// A plane is one normal, which its lobe represents.
 TEST(FitError, APlaneIsFittedExactly) {
   EXPECT_LT(relative_fit_rms(make_patch(find_patch_kind("flat"), {}), small()), 1e-3);
 }

@@ -26,7 +26,7 @@ TEST(BestConstant, IsWhatTheTableOfFitSays) {
   }
 }
 
-// Engines differ by four in the constant, and that is no matter of taste.
+// Engines differ by four in the constant, and one of them is right.
 TEST(BestConstant, LeavesLessThanEnginesOwn) {
   const WidenedLobe lobe(NormalDistribution::ggx, 0.1, 0.2);
   const double fit = lobe.error(fit_table(NormalDistribution::ggx)[1]);

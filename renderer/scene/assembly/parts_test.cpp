@@ -33,7 +33,7 @@ Scene load_parts(const std::string& settings) {
   return load_scene(test::write_file("parts/scene.toml", settings).string(), {.folder = {}, .surfaces = tiles()});
 }
 
-TEST(Parts, SurfacesThatAreMadeHaveNoMoreTexelsThanIsAsked) {
+TEST(Parts, SurfacesThatAreMadeHaveNoMoreTexelsThanRequested) {
   const auto file = test::write_file("parts/scene.toml",
                                      "[[part]]\nsurface = { name = \"tiles\" }\n"
                                      "[[part]]\nsurface = { name = \"tiles\", resolution = 2 }\n");

@@ -119,8 +119,8 @@ NormalMap decode_unit_normals(const Image& stored, double scale, NormalChannels 
       stored, [](const auto& v) { return v; }, xy, scale);
 }
 
-MapTexels kept_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
-                       const std::string& name, std::vector<std::string>& faults) {
+MapTexels stored_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
+                         const std::string& name, std::vector<std::string>& faults) {
   const NormalMap map = decode(stored);
   std::ranges::move(describe_faults(map, name), std::back_inserter(faults));
   return MapTexels::packed(map.image, stored, [decode](const Image& again) { return decode(again).image; });
@@ -133,7 +133,7 @@ MapTexels read_normal_map(const std::filesystem::path& file, double scale, Norma
     return unit ? decode_unit_normals(image, scale, channels) : decode_normal_map(image, scale, channels);
   };
   try {
-    return kept_normals(stored, decode, file.filename().string(), faults);
+    return stored_normals(stored, decode, file.filename().string(), faults);
   } catch (const Error& error) {
     throw error.within(file.string());
   }

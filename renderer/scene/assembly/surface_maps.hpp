@@ -38,8 +38,8 @@ struct NormalMap {
 
 /// The normals of a stored map, in the form that materials store. Adds faults to `faults`.
 /// decode: one of the functions above.
-[[nodiscard]] MapTexels kept_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
-                                     const std::string& name, std::vector<std::string>& faults);
+[[nodiscard]] MapTexels stored_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
+                                       const std::string& name, std::vector<std::string>& faults);
 
 /// Multiplies the slopes of a normal map by `strength`.
 void scale_slopes(Image& normals, double strength);

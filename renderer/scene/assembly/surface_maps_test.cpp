@@ -112,14 +112,14 @@ TEST(SurfaceMaps, UnitNormalsThatAreNoneAreRefused) {
   EXPECT_NE(refusal(one_texel({0.8F, 0.5F, 0.9F})).find("encoded as 0 to 1"), std::string::npos);
   EXPECT_NE(refusal(one_texel({3.0F, 4.0F, 0.0F})).find("do not contain a unit vector"), std::string::npos);
   EXPECT_NE(refusal(one_texel({1.0F})).find("two channels or three"), std::string::npos);
-  EXPECT_EQ(refusal(one_texel({0.0F, 0.0F, 0.0F})), "none");  // tells nothing: no weight
+  EXPECT_EQ(refusal(one_texel({0.0F, 0.0F, 0.0F})), "none");  // without a direction: no weight
 }
 
 TEST(SurfaceMaps, NormalMapsNeedTwoChannelsAtLeast) {
   EXPECT_THROW((void)decode_normal_map(Image(2, 2, 1, 0.5F), 1.0), Error);
 }
 
-// x and y alone: z makes the normal a unit vector, whatever stands in its channel; scaled as ever.
+// x and y alone: z makes the normal a unit vector, for any content of its channel; scaled as usual.
 TEST(SurfaceMaps, TwoChannelsLeaveZToTheReader) {
   const auto expect_normal = [](const NormalMap& map, const glm::vec3& normal) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(map.image.texels[c], normal[static_cast<int>(c)], 1e-6F);

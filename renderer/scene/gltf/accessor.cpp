@@ -46,7 +46,7 @@ struct Elements {
   }
 };
 
-/// Finds `count` elements of `components` in a buffer view; `count` is at least 1. The view itself lies within its
+/// Finds `count` elements of `components` in a buffer view; `count` is at least 1. The view itself is within its
 /// buffer (check_gltf_json). A stride of 0 means tightly packed.
 Elements locate(const tinygltf::Model& model, int view_index, std::uint64_t offset, std::uint64_t count,
                 std::size_t components, int type, const std::string& place) {
@@ -110,7 +110,7 @@ void check_shape(const tinygltf::Accessor& accessor, int components, const std::
                 fmt::format("has elements of another type than the {} components that its use needs", components));
   }
   if (accessor.count == 0) refuse_gltf(place, "has no element");
-  // Elements without bytes behind them cost a file nothing, so that it could ask for any memory.
+  // Elements without bytes behind them cost a file nothing, so that it could claim any memory.
   const std::uint64_t largest = accessor.bufferView < 0 ? largest_unbacked_count : largest_element_count;
   if (accessor.count > largest) {
     refuse_gltf(place, fmt::format("{} elements, more than the {} that are read", accessor.count, largest));

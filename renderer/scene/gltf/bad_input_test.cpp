@@ -148,7 +148,7 @@ TEST(GltfBadInput, PositionsMustBeFinite) {
       primitive(quad)["attributes"]["POSITION"] = positions;
     });
   }
-  expect_error("vertex 0: lies beyond", [](GltfBuilder& quad) { quad.json["nodes"][0]["scale"] = {1e300, 1, 1}; });
+  expect_error("vertex 0: is beyond", [](GltfBuilder& quad) { quad.json["nodes"][0]["scale"] = {1e300, 1, 1}; });
 }
 
 TEST(GltfBadInput, NodesMustBeTrees) {
@@ -210,7 +210,7 @@ TEST(GltfBadInput, TexturesNameMaterialAndFile) {
 }
 
 TEST(GltfBadInput, TexturesOfHostileSizeAreRefusedFromTheHeader) {
-  // A PNG header that promises 2^31 - 1 texels a side, and nothing behind it.
+  // A PNG header that promises 2^31 - 1 texels per side, and nothing behind it.
   std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\x06\0\0\0\x52\x05\x8e\x6d", 33);
   test::write_file("huge.png", png);
   expect_error("huge.png", [](GltfBuilder& quad) { add_normal_map(quad, {{"uri", "huge.png"}}); });
@@ -263,7 +263,7 @@ TEST(GltfBadInput, GlbContainers) {
   EXPECT_NE(error_of(test::write_file("long.glb", whole + "more")).find("GLB container"), std::string::npos);
 }
 
-// By their headers alone the maps are more than memory holds: told before any of them is decoded.
+// By their headers the maps exceed memory, which is reported before any of them is decoded.
 TEST(GltfBadInput, MapsThatMemoryDoesNotHoldAreRefusedBeforeTheWork) {
   constexpr std::uint32_t side = 16384;
   const std::uint64_t map_bytes = std::uint64_t{side} * side * 16;

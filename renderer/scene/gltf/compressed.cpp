@@ -250,7 +250,7 @@ bool fill_fallback_buffers(nlohmann::json& document) {
   }
   for (const auto& image : document.value("images", nlohmann::json::array())) {
     if (image.contains("bufferView") && is_compressed(views[image["bufferView"].get<std::size_t>()]))
-      refuse_gltf(meshopt_extension, "an image lies in a compressed buffer view");
+      refuse_gltf(meshopt_extension, "an image is in a compressed buffer view");
   }
   for (auto& buffer : document["buffers"]) {
     if (!is_fallback(buffer)) continue;

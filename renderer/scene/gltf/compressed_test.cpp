@@ -115,7 +115,7 @@ DracoBytes draco_bytes(const Bumps& bumps, draco::MeshEncoderMethod method) {
   return out;
 }
 
-// A file that holds the Draco data alone.
+// A file with only the Draco data.
 GltfBuilder draco_file(const Bumps& bumps, const DracoBytes& encoded) {
   GltfBuilder file;
   const int view = file.add_view(encoded.bytes);

@@ -80,7 +80,7 @@ TEST(Gltf, MatrixAndTrsAgreeOnTheSameTransform) {
   }
 }
 
-// Four colours that all of glTF's forms can hold, as the bytes of an accessor.
+// Four colours that all of glTF's forms can represent, as the bytes of an accessor.
 struct ColorForm {
   int component_type;
   int components;
@@ -512,7 +512,7 @@ TEST(Gltf, PointsAndLinesAreLeftOutOnce) {
   EXPECT_EQ(model.warnings.size(), 1U);
 }
 
-TEST(Gltf, DegenerateTrianglesAreKept) {
+TEST(Gltf, DegenerateTrianglesStay) {
   GltfBuilder quad = make_quad();
   const int indices = quad.add_indices({0, 3, 2, 1, 1, 1, 0, 2, 2});
   quad.json["meshes"][0]["primitives"][0]["indices"] = indices;

@@ -185,7 +185,7 @@ void GltfMaterials::convert_maps(const tinygltf::Material& source, Material& mat
   }
 }
 
-// KHR_materials_clearcoat: weight 0, the default, is no coat at all.
+// KHR_materials_clearcoat: weight 0, the default, means no coat.
 void GltfMaterials::convert_coat(const tinygltf::Material& source, Material& material) {
   const tinygltf::Value* const extension = coat_of(source);
   if (extension == nullptr) return;
@@ -289,7 +289,7 @@ MapTexels GltfMaterials::normals(int image, double scale) {
   const auto decode = [scale](const Image& texels) { return decode_normal_map(texels, scale); };
   const std::string name = image_name(document_.model.images[static_cast<std::size_t>(image)], image);
   std::vector<std::string> faults;
-  map = kept_normals(stored(image, Transfer::linear), decode, name, faults);
+  map = stored_normals(stored(image, Transfer::linear), decode, name, faults);
   for (std::string& line : faults) add_once(warnings_, std::move(line));
   return map;
 }

@@ -157,7 +157,7 @@ void transform(Builder& builder, const glm::dmat4& world) {
     const glm::dvec3 position{world * glm::dvec4{glm::dvec3{vertex.position}, 1.0}};
     for (int axis = 0; axis < 3; ++axis) {
       if (!(std::abs(position[axis]) <= farthest)) {
-        refuse_gltf(fmt::format("vertex {}", i), fmt::format("lies beyond {:g} m in the world", farthest));
+        refuse_gltf(fmt::format("vertex {}", i), fmt::format("is beyond {:g} m in the world", farthest));
       }
     }
     vertex.position = glm::vec3{position};

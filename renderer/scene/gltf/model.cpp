@@ -37,7 +37,7 @@ glm::dvec3 view_direction(const glm::dmat4& world, const std::string& place) {
 
 glm::vec3 position_of(const glm::dmat4& world, const std::string& place) {
   const glm::dvec3 position{world[3]};
-  require(glm::length(position) <= largest, place, fmt::format("lies beyond {:g} m in the world", largest));
+  require(glm::length(position) <= largest, place, fmt::format("is beyond {:g} m in the world", largest));
   return glm::vec3{position};
 }
 
@@ -231,7 +231,7 @@ class Gatherer {
         refuse_gltf(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
       }
       seen[static_cast<std::size_t>(index)] = true;
-      if (depth > deepest_node) refuse_gltf(place, fmt::format("lies more than {} nodes deep", deepest_node));
+      if (depth > deepest_node) refuse_gltf(place, fmt::format("is more than {} nodes deep", deepest_node));
       const auto& node = document_.model.nodes[static_cast<std::size_t>(index)];
       const glm::dmat4 world = parent * local_transform(node, place);
       gather_node(node, world);

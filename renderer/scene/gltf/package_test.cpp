@@ -68,7 +68,7 @@ TEST(GltfPackage, ClearCoatTestLoadsWhole) {
   for (const Mesh& mesh : scene.meshes) triangles += mesh.indices.size() / 3;
   EXPECT_GT(triangles, 30000U);
   EXPECT_TRUE(std::ranges::any_of(scene.materials, [](const Material& m) { return m.normal_map.has_value(); }));
-  const auto count = [&](auto holds) { return std::ranges::count_if(scene.materials, holds); };
+  const auto count = [&](auto condition) { return std::ranges::count_if(scene.materials, condition); };
   EXPECT_GT(count([](const Material& m) { return m.coat && m.coat->roughness_map; }), 0);
   EXPECT_GT(count([](const Material& m) { return m.coat && m.coat->normal_map; }), 0);
   EXPECT_GT(count([](const Material& m) { return !m.coat; }), 0);

@@ -105,7 +105,7 @@ TEST(MapSettings, MapsHaveTheirOwnSizeAndTiling) {
   EXPECT_EQ(made.metallic, 0.0F);
 }
 
-// The bounds as 32 bits hold them: 0.001 is below the double of that name.
+// The bounds in 32 bits: 0.001 is below the double of that name.
 TEST(MapSettings, MapsMayHoldTheBoundsOfTheirLobe) {
   Image alphas(2, 1, 1, 0.001F);
   alphas.at(1, 0)[0] = 1.0F;

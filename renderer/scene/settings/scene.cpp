@@ -58,7 +58,7 @@ Environment load_first(const EnvironmentSettings& settings, std::vector<std::str
   for (const auto& candidate : settings.candidates) {
     if (std::filesystem::exists(candidate, ignored)) return load_environment(candidate, warnings);
   }
-  throw missing_candidates(settings.candidates, "there is no such environment", settings.package, "check the path");
+  throw missing_candidates(settings.candidates, "no such environment", settings.package, "check the path");
 }
 
 Environment unscaled(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {

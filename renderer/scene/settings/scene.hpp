@@ -47,7 +47,7 @@ struct SceneSettings {
   bool automatic_exposure = false;  ///< requested explicitly, also with the supplied lights
   std::vector<Light> lights;
   bool keep_model_lights = true;
-  bool supply_environment = false;  ///< with the supplied lights, if there is no light at all
+  bool supply_environment = false;  ///< with the supplied lights, if the scene has no light
   ShadowSettings shadows;
   std::optional<Horizon> horizon;  ///< none: open
   std::optional<EnvironmentSettings> environment;

@@ -128,7 +128,7 @@ TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
   EXPECT_EQ(camera.zfar, 20.0F);
 }
 
-TEST(SceneSettings, ShadowsAreDerivedUnlessTold) {
+TEST(SceneSettings, ShadowsAreDerivedUnlessGiven) {
   EXPECT_FALSE(read("[plane]\n").shadows.cast);
   EXPECT_FALSE(read("[plane]\n[shadows]\n").shadows.cast);
   EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").shadows.cast, true);

@@ -1,4 +1,4 @@
-// A Vulkan driver that crashes as soon as it is asked for anything.
+// A Vulkan driver that crashes at its first call.
 #include <cstdlib>
 
 extern "C" [[gnu::visibility("default")]] void* vk_icdGetInstanceProcAddr(void*, const char*) { std::abort(); }

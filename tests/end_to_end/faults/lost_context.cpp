@@ -1,4 +1,4 @@
-// Loaded before a program: its OpenGL context is lost as soon as an error is asked for, as where a GPU is reset.
+// Loaded before a program: its OpenGL context is lost at the first query of an error, as if the GPU was reset.
 #include <dlfcn.h>
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// Visibility on disk: a second run has the bytes of the first, what is damaged or foreign is asked anew, and the key
-// follows all that the field depends on.
+// Visibility on disk: a second run has the bytes of the first, damaged or foreign files are computed again, and the
+// key follows all that the field depends on.
 #include "renderer/visibility/visibility_field.hpp"
 
 #include <gtest/gtest.h>
@@ -28,61 +28,61 @@ Scene two_squares() {
 
 const Environment white_sky = constant_environment(glm::vec3(1.0F));
 
-// The field by `cache`, and whether any vertex was asked for it.
-struct Asked {
+// The field by `cache`, and whether it was computed.
+struct Found {
   VisibilityField field;
-  bool anew = false;
+  bool computed = false;
 };
 
-Asked ask(const Scene& scene, const DiskCache* cache) {
-  Asked asked;
-  const Progress notice = [&](std::string_view /*what*/, double /*fraction*/) { asked.anew = true; };
-  asked.field = cached_visibility_field(scene, white_sky, cache, notice);
-  return asked;
+Found find_field(const Scene& scene, const DiskCache* cache) {
+  Found found;
+  const Progress notice = [&](std::string_view /*what*/, double /*fraction*/) { found.computed = true; };
+  found.field = cached_visibility_field(scene, white_sky, cache, notice);
+  return found;
 }
 
 fs::path only_file(const DiskCache& cache) { return fs::directory_iterator(cache.folder())->path(); }
 
-TEST(KeptVisibility, ASecondRunHasTheBytesOfTheFirst) {
+TEST(VisibilityCache, ASecondRunHasTheBytesOfTheFirst) {
   const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = two_squares();
-  const Asked first = ask(scene, &cache), second = ask(scene, &cache);
-  EXPECT_TRUE(first.anew);
-  EXPECT_FALSE(second.anew);
+  const Found first = find_field(scene, &cache), second = find_field(scene, &cache);
+  EXPECT_TRUE(first.computed);
+  EXPECT_FALSE(second.computed);
   EXPECT_EQ(to_bytes(first.field), to_bytes(second.field));
   EXPECT_GT(first.field.error + std::abs(first.field.meshes.at(0).at(1).weights.at(0)), 0.0F) << "nothing to keep";
-  EXPECT_TRUE(ask(scene, nullptr).anew);
-  EXPECT_EQ(to_bytes(ask(scene, nullptr).field), to_bytes(first.field));
+  EXPECT_TRUE(find_field(scene, nullptr).computed);
+  EXPECT_EQ(to_bytes(find_field(scene, nullptr).field), to_bytes(first.field));
 }
 
-TEST(KeptVisibility, ADamagedFileIsAskedAnewAndReplaced) {
+TEST(VisibilityCache, ADamagedFileIsComputedAgainAndReplaced) {
   const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = two_squares();
-  const std::vector<std::uint8_t> whole = to_bytes(ask(scene, &cache).field);
+  const std::vector<std::uint8_t> whole = to_bytes(find_field(scene, &cache).field);
   const fs::path file = only_file(cache);
   for (const std::size_t place : {std::size_t{0}, whole.size() / 2, whole.size() - 1}) {
     std::vector<std::uint8_t> damaged = whole;
     damaged[place] ^= 1U;
     EXPECT_FALSE(visibility_from_bytes(damaged, scene)) << place;
     std::ofstream(file, std::ios::binary) << std::string(damaged.begin(), damaged.end());
-    const Asked again = ask(scene, &cache);
-    EXPECT_TRUE(again.anew) << place;
+    const Found again = find_field(scene, &cache);
+    EXPECT_TRUE(again.computed) << place;
     EXPECT_EQ(to_bytes(again.field), whole);
-    EXPECT_FALSE(ask(scene, &cache).anew) << "replaced";
+    EXPECT_FALSE(find_field(scene, &cache).computed) << "replaced";
   }
   fs::resize_file(file, 100);
-  EXPECT_TRUE(ask(scene, &cache).anew);
+  EXPECT_TRUE(find_field(scene, &cache).computed);
 }
 
-TEST(KeptVisibility, AFieldOfAnotherSceneUnderThisNameIsAskedAnew) {
+TEST(VisibilityCache, AFieldOfAnotherSceneUnderThisNameIsComputedAgain) {
   const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = two_squares(), other = testing::square_scene({}, {});
-  cache.store(visibility_key(scene, white_sky), to_bytes(ask(other, nullptr).field));
-  EXPECT_TRUE(ask(scene, &cache).anew);
-  EXPECT_EQ(ask(scene, &cache).field.meshes.size(), 2U);
+  cache.store(visibility_key(scene, white_sky), to_bytes(find_field(other, nullptr).field));
+  EXPECT_TRUE(find_field(scene, &cache).computed);
+  EXPECT_EQ(find_field(scene, &cache).field.meshes.size(), 2U);
 }
 
-TEST(KeptVisibility, AnInterruptLeavesNothing) {
+TEST(VisibilityCache, AnInterruptLeavesNothing) {
   const DiskCache cache(test::fresh_folder() / "cache");
   const Progress stop = [](std::string_view /*what*/, double /*fraction*/) {
     throw Error(ErrorKind::interrupted, "", "interrupted");
@@ -91,7 +91,7 @@ TEST(KeptVisibility, AnInterruptLeavesNothing) {
   EXPECT_FALSE(fs::exists(cache.folder()));
 }
 
-TEST(KeptVisibility, TheKeyFollowsAllThatTheFieldDependsOn) {
+TEST(VisibilityCache, TheKeyFollowsAllThatTheFieldDependsOn) {
   const Scene scene = two_squares();
   const std::string key = visibility_key(scene, white_sky);
   EXPECT_EQ(visibility_key(two_squares(), white_sky), key);

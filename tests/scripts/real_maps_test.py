@@ -1,0 +1,101 @@
+"""scripts/real_maps on a small tree: what it takes, leaves out and writes; and no constant is chosen on held-out maps."""
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
+RECORDED = SOURCE / "results/real_maps.json"
+WITH_CONSTANTS = ("methods", "renderer", "experiments", "scenes", "scripts")
+
+
+def write_grey(file, side, value):
+    """A grey PNG of one value."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = (b"\0" + bytes([value]) * 3 * side) * side
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def held_out_uses(files, recorded):
+    """The files that name a held-out map."""
+    names = [pathlib.Path(entry["file"]).name for entry in recorded["maps"] if entry["part"] == "held_out"]
+    return [str(file) for file in files if any(name in file.read_text(encoding="utf-8", errors="replace") for name in names)]
+
+
+class RealMaps(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.tree, self.out = self.folder / "tree", self.folder / "out"
+        (self.tree / "grooves").mkdir(parents=True)
+
+    def surface(self, surface, name):
+        subprocess.run([PROGRAM, "surface", surface, "--resolution", "64", "-o", self.tree / name], check=True,
+                       capture_output=True)
+
+    def collect(self):
+        return subprocess.run([SOURCE / "scripts/real_maps", self.out, f"some-package={self.tree}"], capture_output=True,
+                              text=True, check=False, env=os.environ)
+
+    def test_maps_become_scenes_and_the_rest_is_named(self):
+        self.surface("bumps", "bumps_Normal.png")
+        self.surface("v_grooves", "grooves/Grooves_normal.png")
+        shutil.copyfile(self.tree / "bumps_Normal.png", self.tree / "copy_Normal.png")
+        write_grey(self.tree / "grey_Normal.png", 16, 128)
+        write_grey(self.tree / "grooves/Grooves_gloss.png", 64, 255)
+        write_grey(self.tree / "other.png", 16, 128)
+        (self.tree / "grooves/licenses.txt").write_text("free")
+        done = self.collect()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 maps", done.stdout)
+        listed = json.loads((self.out / "maps.json").read_text())
+        reasons = {entry["file"]: entry["reason"] for entry in listed["left_out"]}
+        self.assertEqual(set(reasons), {"copy_Normal.png", "grey_Normal.png"})
+        self.assertIn("is the same as bumps_Normal.png", reasons["copy_Normal.png"])
+        self.assertIn("0.0% of its texels", reasons["grey_Normal.png"])
+        bumps, grooves = listed["maps"]
+        self.assertEqual((bumps["name"], grooves["name"]), ("bumps", "grooves"))
+        self.assertEqual((grooves["class"], grooves["gloss"], grooves["licence"]),
+                         ("lines", "grooves/Grooves_gloss.png", "grooves/licenses.txt"))
+        for entry, name in ((bumps, "bumps_Normal.png"), (grooves, "Grooves_normal.png")):
+            remainder = int.from_bytes(hashlib.sha256(name.encode()).digest(), "big") % 3
+            self.assertEqual(entry["part"], "development" if remainder else "held_out")
+        self.assertEqual([len(bumps["scenes"]), len(grooves["scenes"])], [3, 1])
+        for scene in bumps["scenes"] + grooves["scenes"]:
+            self.assertEqual(subprocess.run([PROGRAM, "explain", self.out / scene / "scene.toml", "--quiet"],
+                                            capture_output=True, check=False).returncode, 0, scene)
+        stats = subprocess.run(["oiiotool", "--stats", self.out / grooves["scenes"][0] / "roughness.png"], check=True,
+                               capture_output=True, text=True).stdout
+        average = float(re.search(r"Stats Avg: ([\d.]+)", stats)[1])
+        self.assertAlmostEqual(average / 255, 1025 ** -0.25, delta=1 / 255)  # gloss 1: exponent 2048
+
+    def test_a_tree_without_maps_is_an_error(self):
+        done = self.collect()
+        self.assertEqual((done.returncode, done.stderr), (1, "real_maps: no normal map was found\n"))
+
+    def test_no_constant_is_chosen_on_held_out_maps(self):
+        recorded = json.loads(RECORDED.read_text(encoding="utf-8"))
+        self.assertGreater(sum(entry["part"] == "held_out" for entry in recorded["maps"]), 10)
+        listed = subprocess.run(["git", "-C", SOURCE, "ls-files", *WITH_CONSTANTS], capture_output=True, text=True, check=False)
+        files = [SOURCE / name for name in listed.stdout.splitlines()] or [
+            file for folder in WITH_CONSTANTS for file in (SOURCE / folder).rglob("*") if file.is_file()]
+        self.assertEqual(held_out_uses(files, recorded), [])
+        name = next(entry["file"] for entry in recorded["maps"] if entry["part"] == "held_out")
+        (self.folder / "fit.toml").write_text(f'scene = "maps/{pathlib.Path(name).name}"')
+        self.assertEqual(len(held_out_uses([self.folder / "fit.toml"], recorded)), 1, "this must be found")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -316,6 +316,31 @@ class EngineConstants(InFolder):
                          list(self.script.SURFACES))
 
 
+class MeasureGpu(unittest.TestCase):
+    def setUp(self):
+        self.script = module(SOURCE / "scripts/measure_gpu")
+
+    def test_the_first_hardware_backend_is_taken(self):
+        lines = ["  egl                    llvmpipe (LLVM 15), OpenGL 4.5 (Core Profile) Mesa 22.3.6, software",
+                 "  egl-device --device 0  not available: EGL device: the driver gives no OpenGL 4.5 core context",
+                 "  egl-device --device 1  NVIDIA H100, OpenGL 4.5.0 NVIDIA 580"]
+        self.assertIsNone(self.script.HARDWARE.search("\n".join(lines[:2])))
+        self.assertEqual(self.script.HARDWARE.search("\n".join(lines)).groups(), ("egl-device", "1"))
+
+    def test_fixed_costs_of_a_frame_and_builds_are_no_part_of_a_pixel(self):
+        def record(method, distance, pixels, ms, build):
+            return {"method": method, "distance": distance, "pixels": {"object": pixels},
+                    "time": {"frame_ms": {"median": ms}, "frame_build_ms": build}}
+
+        records = [record("direct", 1.2, 1_001_000, 3.0, None), record("direct", 100.0, 1_000, 1.0, None),
+                   record("xu_vmf", 1.2, 1_001_000, 12.0, 5.0), record("xu_vmf", 100.0, 1_000, 6.0, 5.0)]
+        costs = [{"method": method, "gpus": [{"gpu": "Deck", "cost_ns": cost, "passes_ns": passes, "arithmetic_ns": alu}]}
+                 for method, cost, passes, alu in (("direct", 2.0, 0.0, 1.0), ("xu_vmf", 9.0, 4.0, 3.0))]
+        table = self.script.ratios_to_direct(records, costs)
+        self.assertIn("| `direct` | 2 | 1 |  | 1 (1) |", table)  # (3 - 1) ms over a million pixels
+        self.assertIn("| `xu_vmf` | 6 | 3 | 5 | 2.5 (3) |", table)
+
+
 class AccuracyVsTime(InFolder):
     """The page is what parts say: fronts, prices and findings; parts that are there are not run again."""
 

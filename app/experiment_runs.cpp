@@ -14,7 +14,6 @@
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
-#include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/noise_guard.hpp"

@@ -13,7 +13,6 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"

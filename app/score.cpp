@@ -18,7 +18,6 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/exposure.hpp"
 #include "experiments/studies/score.hpp"
 #include "experiments/studies/stage.hpp"

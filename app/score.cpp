@@ -27,9 +27,8 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "results/report/listed_files.hpp"
-#include "results/report/markdown_table.hpp"
-#include "results/report/results_document.hpp"
+#include "results/report/markup.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {

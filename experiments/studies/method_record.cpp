@@ -5,7 +5,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/supersample.hpp"
-#include "results/report/equivalent_spp.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

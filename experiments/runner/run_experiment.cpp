@@ -11,8 +11,8 @@
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/quantities.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
-#include "experiments/studies/run_fingerprint.hpp"
-#include "experiments/studies/zoom.hpp"
+#include "experiments/studies/run_info.hpp"
+#include "experiments/studies/views.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/record_fields.hpp"
 

@@ -1,6 +1,5 @@
 // results.json: its field names, and every kind of value at its place; schema_test.py checks the whole document. Files
 // that it lists are found in documents of this program, and in no other file.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

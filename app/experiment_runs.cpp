@@ -16,7 +16,6 @@
 #include "app/progress_display.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/judge.hpp"
-#include "experiments/runner/noise_guard.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "results/report/matrix_report.hpp"
 #include "results/report/report.hpp"

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "experiments/runner/functions.hpp"
-#include "experiments/runner/quantities.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/views.hpp"

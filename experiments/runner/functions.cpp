@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
-#include "experiments/runner/quantities.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/views.hpp"
 #include "methods/registry.hpp"

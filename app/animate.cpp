@@ -1,28 +1,39 @@
 // `footprint animate`: the frames of a zoom, an orbit or a light's path, with error and flicker against the reference.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "app/child_process.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
-#include "app/film.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/part_file.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/compare.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
 #include "renderer/core/process.hpp"
 
 namespace footprint {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* film_file = "images/film.mp4";
+constexpr int frames_per_second = 30;
 
 constexpr const char* animate_examples =
     "The folder gets images/METHOD_NNNN and images/reference_NNNN (.exr and .png), index.html with the film and its\n"
@@ -85,9 +96,9 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
   const auto begin = std::chrono::steady_clock::now();
   const Shard shard = parse_shard(arguments.shard);
   const FinishedWork finished = finished_frames(arguments, settings);
-  const std::filesystem::path output = arguments.output;
+  const fs::path output = arguments.output;
   std::error_code none;
-  std::filesystem::remove(output / "part.json", none);
+  fs::remove(output / "part.json", none);
   ProgressDisplay display(progress_style(arguments.quiet));
   {
     const OutputFolder scratch(output);  // never moved to its place
@@ -96,7 +107,7 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
     std::iota(frames.begin(), frames.end(), first);
     const std::string run =
         measure_views(settings, frames, scratch.path(), display.callback(), {.finished = &finished});
-    std::filesystem::create_directories(output);
+    fs::create_directories(output);
     write_part_file(output, {.kind = PartKind::animation,
                              .experiment = settings.scene,
                              .fingerprint = run,
@@ -112,13 +123,75 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
   write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
 }
 
+// The pattern of all frames that the picture of frame 0 is of: "images/toksvig_%04d.png".
+std::string pattern_of(const std::string& first) {
+  constexpr std::string_view ending = "_0000.exr";
+  return first.substr(0, first.size() - ending.size()) + "_%04d.png";
+}
+
+std::vector<std::string> columns_of(const Results& animation) {
+  std::vector<std::string> patterns{pattern_of(animation.records.front().images.reference)};
+  for (const Record& record : animation.records) {
+    if (record.frame == 0) patterns.push_back(pattern_of(record.images.color));
+  }
+  return patterns;
+}
+
+std::vector<std::string> film_arguments(const Results& animation) {
+  std::vector<std::string> arguments{"ffmpeg", "-y", "-nostdin", "-loglevel", "error"};
+  const std::vector<std::string> columns = columns_of(animation);
+  std::string inputs;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    arguments.insert(arguments.end(), {"-framerate", fmt::format("{}", frames_per_second), "-i", columns[i]});
+    inputs += fmt::format("[{}:v]", i);
+  }
+  const std::string layout =
+      fmt::format("{}hstack=inputs={},pad=ceil(iw/2)*2:ceil(ih/2)*2,format=yuv420p", inputs, columns.size());
+  arguments.insert(arguments.end(), {"-filter_complex", layout, "-c:v", "libx264", "-crf", "16", "-threads", "1",
+                                     "-fflags", "+bitexact", film_file});
+  return arguments;
+}
+
+// The path of ffmpeg. Errors (machine): it is not in PATH.
+fs::path find_ffmpeg() {
+  const char* const path = std::getenv("PATH");
+  std::string_view folders = path != nullptr ? path : "";
+  while (!folders.empty()) {
+    const std::string_view folder = folders.substr(0, folders.find(':'));
+    folders.remove_prefix(std::min(folder.size() + 1, folders.size()));
+    fs::path file = fs::path(folder) / "ffmpeg";
+    if (!folder.empty() && access(file.c_str(), X_OK) == 0) return fs::absolute(file);
+  }
+  throw Error(ErrorKind::machine, "--video", "ffmpeg is not installed",
+              "install the package ffmpeg, or leave --video out: the frames are written anyway");
+}
+
+// Writes FOLDER/images/film.mp4, the reference and then all methods side by side, and returns its path from the folder.
+// One input per column; sides are padded to even numbers, as the pixel format needs. Errors (machine): ffmpeg ends
+// otherwise than well, in its own words; an interrupt through `progress`: ffmpeg is ended.
+std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs::path& folder,
+                      const Progress& progress) {
+  const fs::path errors = folder / "ffmpeg.log";
+  ChildProcess child(
+      {.program = ffmpeg, .arguments = film_arguments(animation), .errors = errors, .folder = folder},
+      Error(ErrorKind::machine, "--video", fmt::format("{} cannot be started", ffmpeg.string()), "try it by hand"));
+  const int exit_code = child.wait([&] { progress("the film", 0.0); });
+  std::string words = file_text(errors);
+  while (!words.empty() && words.back() == '\n') words.pop_back();
+  fs::remove(errors);
+  if (exit_code == 0 && fs::is_regular_file(folder / film_file)) return film_file;
+  throw Error(ErrorKind::machine, "--video",
+              fmt::format("ffmpeg ended with {}: {}", exit_code, words.empty() ? "no message" : words.substr(0, 400)),
+              "leave --video out: finished frames are stored, and are not rendered again");
+}
+
 void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = settings_of(arguments);
   if (!arguments.shard.empty()) return animate_part(arguments, settings);
-  const std::filesystem::path ffmpeg = arguments.video ? find_ffmpeg() : std::filesystem::path();
+  const fs::path ffmpeg = arguments.video ? find_ffmpeg() : fs::path();
   const FinishedWork finished = finished_frames(arguments, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
-  write_and_print_animation(arguments.output, [&](const std::filesystem::path& folder) {
+  write_and_print_animation(arguments.output, [&](const fs::path& folder) {
     ProgressParts parts(display.callback(), 20);
     Results animation = run_compare(settings, folder, parts.next(19, ""), {.finished = &finished});
     if (arguments.video) animation.film = make_film(ffmpeg, animation, folder, parts.next(1, ""));

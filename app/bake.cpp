@@ -12,7 +12,6 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/baked_files/baked_files.hpp"

@@ -7,10 +7,10 @@
 
 #include "app/commands.hpp"
 #include "app/gpu_compiler.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/gpu_cost.hpp"
 
 namespace footprint {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/edit.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"

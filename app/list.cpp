@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/completions.hpp"
 #include "app/folders.hpp"
-#include "app/standard_output.hpp"
+#include "app/help.hpp"
+#include "app/messages.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/memory.hpp"

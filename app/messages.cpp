@@ -1,11 +1,15 @@
-// Lines on standard error that any terminal can show.
+// Makes messages lines that any terminal can show, and flushes results at once, so that a full disk is an error here.
 #include "app/messages.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "renderer/core/error.hpp"
 
 namespace footprint {
 namespace {
@@ -34,6 +38,15 @@ void write_scene_notes(const Scene& scene, bool quiet) {
   for (const std::string& warning : scene.warnings) write_message("warning: " + warning);
   if (quiet) return;
   for (const std::string& supplied : scene.defaults) write_message("supplied " + supplied);
+}
+
+void write_output(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return;
+  const int reason = errno;
+  if (reason == EPIPE) return;
+  throw Error(ErrorKind::machine, "standard output", "cannot be written: " + std::generic_category().message(reason),
+              "free the disk, or write elsewhere");
 }
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// Messages on standard error, besides the progress.
+// Text on standard output and, besides the progress, on standard error.
 #pragma once
 
 #include <string>
@@ -17,5 +17,9 @@ void write_message(std::string_view text);
 
 /// Writes a message per warning of the scene and, unless `quiet`, per default that was supplied for it.
 void write_scene_notes(const Scene& scene, bool quiet);
+
+/// Writes the whole text and flushes it. A reader that closed the pipe (`| head`) is not an error. Errors (machine):
+/// the text cannot be written.
+void write_output(std::string_view text);
 
 }  // namespace footprint

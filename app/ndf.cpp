@@ -14,7 +14,6 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"

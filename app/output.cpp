@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/standard_output.hpp"
+#include "app/messages.hpp"
 #include "renderer/core/process.hpp"
 #include "results/report/report.hpp"
 

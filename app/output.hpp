@@ -9,8 +9,8 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
-#include "results/report/listed_files.hpp"
 #include "results/report/records.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 

@@ -15,9 +15,8 @@
 #include <system_error>
 #include <vector>
 
-#include "app/help_format.hpp"
+#include "app/help.hpp"
 #include "app/messages.hpp"
-#include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"

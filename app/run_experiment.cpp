@@ -22,7 +22,6 @@
 #include "app/progress_display.hpp"
 #include "app/requested_experiments.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
 #include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/bytes.hpp"

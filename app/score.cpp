@@ -18,8 +18,7 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/standard_output.hpp"
-#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/score.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
@@ -28,9 +27,8 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "results/report/listed_files.hpp"
-#include "results/report/markdown_table.hpp"
-#include "results/report/results_document.hpp"
+#include "results/report/markup.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {

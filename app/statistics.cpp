@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/standard_output.hpp"
+#include "app/messages.hpp"
 #include "renderer/bake/map_statistics.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"

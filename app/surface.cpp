@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/messages.hpp"
 #include "app/output.hpp"
-#include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/process.hpp"

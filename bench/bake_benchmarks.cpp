@@ -1,5 +1,5 @@
 // Benchmarks of editing small-scale geometry, of building mip chains (also off powers of two) and of fitting mixtures.
-#include "bench/bake_benchmarks.hpp"
+#include "bench/benchmarks.hpp"
 
 #include <benchmark/benchmark.h>
 

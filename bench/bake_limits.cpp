@@ -1,5 +1,5 @@
 // Bakes one after the other, without a disk cache; memory is what the system has counted.
-#include "bench/bake_limits.hpp"
+#include "bench/benchmarks.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

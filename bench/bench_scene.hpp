@@ -1,4 +1,5 @@
-// The set-up of frame times: methods over Khronos' ClearCoatTest, or another scene, at 512 x 512, on one context.
+// The set-up of frame times: methods over Khronos' ClearCoatTest, or another scene, at 512 x 512, on one context, and
+// their yardstick: the least that shades the same triangles from a normal map under a light.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +7,29 @@
 #include <string>
 #include <string_view>
 
-#include "bench/bare_frame.hpp"
 #include "experiments/studies/stage.hpp"
+#include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/gpu_scene.hpp"
+#include "renderer/pipeline/view.hpp"
 
 namespace footprint::bench {
+
+/// One fetch of the normal map at its finest level and one GGX lobe under one light, by a program that knows nothing of
+/// effects, footprints, materials or light lists. Draws the batches of a GpuScene into a target of its own.
+class BareFrame {
+ public:
+  BareFrame(const Scene& scene, const GpuScene& gpu_scene, const glm::ivec2& size);
+
+  /// Draws a view of a perspective camera; the pixels stay on the GPU.
+  void draw(const View& view) const;
+
+ private:
+  const GpuScene* gpu_scene_;
+  std::vector<GpuTexture> normal_maps_;  // one a batch
+  gl::Sampler sampler_;
+  gl::Program program_;
+  gl::RenderTarget target_;
+};
 
 inline constexpr glm::ivec2 frame_pixels{512, 512};
 inline constexpr int reference_spp = 64;

@@ -1,5 +1,5 @@
 // One plane, one bake; the camera's width alone changes from row to row.
-#include "bench/footprint_sizes.hpp"
+#include "bench/benchmarks.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Frames are timed as in reports: on a software renderer wall clock around glFinish.
-#include "bench/frame_benchmarks.hpp"
+#include "bench/benchmarks.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -9,10 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/bake_benchmarks.hpp"
-#include "bench/bake_limits.hpp"
-#include "bench/footprint_sizes.hpp"
-#include "bench/frame_benchmarks.hpp"
+#include "bench/benchmarks.hpp"
 #include "bench/ratios.hpp"
 #include "renderer/core/error.hpp"
 

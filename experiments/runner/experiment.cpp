@@ -11,10 +11,9 @@
 #include <utility>
 
 #include "experiments/runner/functions.hpp"
-#include "experiments/runner/quantities.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
-#include "experiments/studies/zoom.hpp"
+#include "experiments/studies/views.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"

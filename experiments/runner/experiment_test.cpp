@@ -9,7 +9,7 @@
 
 #include "experiments/runner/judge.hpp"
 #include "experiments/runner/run_experiment.hpp"
-#include "experiments/studies/zoom.hpp"
+#include "experiments/studies/views.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "tests/support/fresh_folder.hpp"

@@ -9,10 +9,14 @@
 
 #include "experiments/runner/composed_figure.hpp"
 #include "experiments/runner/judge.hpp"
-#include "experiments/runner/quantities.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
-#include "experiments/studies/run_fingerprint.hpp"
-#include "experiments/studies/zoom.hpp"
+#include "experiments/studies/run_info.hpp"
+#include "experiments/studies/views.hpp"
+#include "methods/registry.hpp"
+#include "renderer/bake/baked_method.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/record_fields.hpp"
 
@@ -86,6 +90,42 @@ std::vector<std::string> figure_content(const Experiment& experiment) {
     for (const auto& [name, value] : quantity.parameters) content.push_back(name + "=" + value);
   }
   return content;
+}
+
+const Material& material_of(const NamedQuantity& named, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) {
+    if (named.material.empty() || material.name == named.material) return material;
+    names.push_back(material.name);
+  }
+  throw Error(ErrorKind::usage, scene.source, fmt::format("has no material `{:.80}`", named.material),
+              suggestion(named.material, names));
+}
+
+// The experiment's quantities, each for every method that has it. Errors (usage): of the figure, naming quantity and
+// method; a material that the scene does not have.
+std::vector<QuantityFigure> measure_quantities(const Experiment& experiment, const Scene& scene,
+                                               const Progress& progress) {
+  std::vector<QuantityFigure> figures;
+  if (experiment.quantities.empty()) return figures;
+  ProgressParts parts(progress, static_cast<double>(experiment.quantities.size() * experiment.run.methods.size()));
+  for (const NamedQuantity& named : experiment.quantities) {
+    for (const MethodSpec& spec : experiment.run.methods) {
+      parts.next(1, "")(fmt::format("{} of {}", named.name, spec.text), 0.0);
+      const Method& method = find_method(spec.name);
+      const Quantity* const quantity = find_quantity(method, named.quantity);
+      if (quantity == nullptr) continue;
+      try {
+        const Options options = options_of(method, spec);
+        const Options parameters(quantity->parameters, named.parameters, "figure " + named.quantity);
+        const double value = quantity->measure(material_of(named, scene), options, parameters);
+        figures.push_back({.name = named.name, .method = spec.text, .quantity = named.quantity, .value = value});
+      } catch (const Error& error) {
+        throw error.within(fmt::format("[[quantity]] {} of {}", named.name, spec.text));
+      }
+    }
+  }
+  return figures;
 }
 
 FurtherFigures measured_figures(const Experiment& experiment, const Scene& scene, const std::filesystem::path& folder,

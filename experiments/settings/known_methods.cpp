@@ -1,5 +1,7 @@
-// Checks the options of each method in a text.
+// Checks the options of each method in a text, and finds figures by their names.
 #include "experiments/settings/known_methods.hpp"
+
+#include <algorithm>
 
 #include "methods/registry.hpp"
 #include "renderer/bake/baked_method.hpp"
@@ -26,6 +28,22 @@ std::vector<MethodSpec> every_method() {
     methods.push_back({.text = method->info().name, .name = method->info().name, .options = {}});
   }
   return methods;
+}
+
+const Quantity* find_quantity(const Method& method, const std::string& name) {
+  const auto all = quantities_of(method);
+  const auto found = std::ranges::find(all, name, &Quantity::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> quantity_names(std::span<const MethodSpec> methods) {
+  std::vector<std::string> names;
+  for (const MethodSpec& method : methods) {
+    for (const Quantity& quantity : quantities_of(find_method(method.name))) {
+      if (std::ranges::find(names, quantity.name) == names.end()) names.push_back(quantity.name);
+    }
+  }
+  return names;
 }
 
 }  // namespace footprint

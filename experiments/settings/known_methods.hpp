@@ -1,9 +1,11 @@
-// Reads methods, and checks them against those of the program.
+// Reads methods, checks them against those of the program, and finds their figures that no picture shows.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "methods/quantities.hpp"
 #include "renderer/core/options.hpp"
 
 namespace footprint {
@@ -17,5 +19,11 @@ namespace footprint {
 
 /// Every method of the program except slow ones (MethodInfo::slow_frame), with its defaults.
 [[nodiscard]] std::vector<MethodSpec> every_method();
+
+/// A method's figure of that name; null where it has none.
+[[nodiscard]] const Quantity* find_quantity(const Method& method, const std::string& name);
+
+/// The names of all figures of some methods, each once.
+[[nodiscard]] std::vector<std::string> quantity_names(std::span<const MethodSpec> methods);
 
 }  // namespace footprint

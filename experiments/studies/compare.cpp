@@ -10,14 +10,9 @@
 #include <utility>
 
 #include "experiments/studies/distance_result.hpp"
-#include "experiments/studies/error_pictures.hpp"
-#include "experiments/studies/exposure.hpp"
-#include "experiments/studies/flicker_causes.hpp"
-#include "experiments/studies/method_pairs.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
-#include "experiments/studies/run_fingerprint.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/views.hpp"
 #include "renderer/image/image_io.hpp"

@@ -1,9 +1,8 @@
 // Which tiles of a reference go on, and what they come to.
-#include "experiments/studies/converge.hpp"
+#include "experiments/studies/reference_noise.hpp"
 
 #include <gtest/gtest.h>
 
-#include "experiments/studies/reference_noise.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "experiments/studies/error_pictures.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "results/report/ranking.hpp"
 
 namespace footprint {

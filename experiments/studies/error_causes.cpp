@@ -1,11 +1,16 @@
-// Masks of pixels, errors over them, and the share of a picture that an exact sum can be afforded for.
+// Masks of pixels, errors over them, and the share of an image over which `exact` is cheap enough to be rendered by
+// default, from the facets that it shades.
 #include "experiments/studies/error_causes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/supersample.hpp"
 
@@ -23,6 +28,9 @@ void visit_pixels(const Tile& tile, int height, Visit visit) {
     for (int x = tile.origin.x; x < tile.origin.x + tile.size.x; ++x) visit(x, height - 1 - y);
   }
 }
+
+constexpr std::string_view bound_name = "exact";
+constexpr double cheap_facets = 1.5e7;  // shaded for all lights, of one distance: about a second on a CPU's two cores
 
 }  // namespace
 
@@ -118,6 +126,34 @@ Image within(const Image& mask, std::span<const Tile> tiles) {
   for (const Tile& tile : tiles)
     visit_pixels(tile, mask.height, [&](int x, int y) { inside.at(x, y)[0] = mask.at(x, y)[0]; });
   return inside;
+}
+
+std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use, std::vector<std::string>& warnings) {
+  if (use == BoundUse::off) return {};
+  const auto all = all_methods();
+  const auto found = std::ranges::find(all, bound_name, [](const Method* m) { return m->info().name; });
+  if (found == all.end()) return {};
+  const EffectSet left_out = stage.effects() & ~(*found)->info().honours;
+  if (left_out.any()) {
+    warnings.push_back(
+        fmt::format("no bound is drawn: {} leaves out {}", bound_name, fmt::join(effect_names(left_out), ", ")));
+    return {};
+  }
+  return stage.stage(parse_methods(std::string(bound_name)).front(), no_progress);
+}
+
+BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
+                        const PixelParts& parts, const Image& texels) {
+  const BoundLights lights{.lights = stage.scene().lights.size(), .environment = stage.scene().environment.has_value()};
+  const PixelCost facets = [&](int x, int y) { return estimated_exact_cost(texels.at(x, y)[0], lights); };
+  const std::vector<Tile> whole{{.origin = {0, 0}, .size = view.size}};
+  const bool all = use == BoundUse::on || cost_of(whole.front(), parts, facets) <= cheap_facets;
+  const std::vector<Tile> tiles = all ? whole : cheap_parts(parts, bound_tile, facets, cheap_facets);
+  const FrameRenderer& frames = bound.frames();
+  BoundPicture out{.picture = all ? frames.render(view) : frames.render(view, tiles),
+                   .pixels = within(parts.interior, tiles)};
+  leave_out_infinite(out.picture, out.pixels);  // of more texels and lights than it sums
+  return out;
 }
 
 }  // namespace footprint

@@ -1,13 +1,16 @@
-// The causes of an error (docs/metrics.md): over which pixels it is measured, and what is rendered to separate them.
+// The causes of an error (docs/metrics.md): over which pixels it is measured, and what is rendered to separate them,
+// such as the bound: the image of `exact`, which no method can beat under the same footprint filter.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "experiments/studies/stage.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/pipeline/interior.hpp"
@@ -80,5 +83,20 @@ void leave_out_infinite(const Image& picture, Image& mask);
 
 /// The mask's pixels in the tiles.
 [[nodiscard]] Image within(const Image& mask, std::span<const Tile> tiles);
+
+/// The image of `exact`, and where it was rendered.
+struct BoundPicture {
+  Image picture;  ///< RGBA
+  Image pixels;   ///< a mask of the interior pixels in which it was drawn, and is finite
+};
+
+/// `exact` over a stage, where this build has it, `use` wants it and it knows every effect of the scene; none
+/// otherwise, and the last reason is added to `warnings`.
+[[nodiscard]] std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use,
+                                                      std::vector<std::string>& warnings);
+
+/// Whole if requested or cheap, else in squares. `texels` are those of Interior.
+[[nodiscard]] BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
+                                      const PixelParts& parts, const Image& texels);
 
 }  // namespace footprint

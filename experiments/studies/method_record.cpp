@@ -1,11 +1,17 @@
-// Errors by cause, what a method prepared, and what a pixel of it costs.
+// Errors and flicker by cause, what a method prepared, what a pixel of it costs, and a picture of verdicts for each two
+// methods.
 #include "experiments/studies/method_record.hpp"
 
+#include <fmt/format.h>
+
+#include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
+#include "experiments/studies/score.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/supersample.hpp"
-#include "results/report/equivalent_spp.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {
@@ -66,6 +72,43 @@ void name_reference(Record& record, const ReferenceView& target) {
   record.images.reference = target.files.reference;
   record.images.standard_error = target.files.standard_error;
   record.images.interior = target.files.interior;
+}
+
+Image in_both(const Image& first, const Image& second) {
+  Image both = first;
+  for (std::size_t i = 0; i < both.texels.size(); ++i) {
+    if (second.texels[i] <= 0.0F) both.texels[i] = 0.0F;
+  }
+  return both;
+}
+
+Image without(const Image& mask, const Image& left_out) {
+  Image rest = mask;
+  for (std::size_t i = 0; i < rest.texels.size(); ++i) {
+    if (left_out.texels[i] > 0.0F) rest.texels[i] = 0.0F;
+  }
+  return rest;
+}
+
+std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures) {
+  if (!figures) return {};
+  return PartFlicker{.mean = figures->mean, .p99 = figures->p99};
+}
+
+std::string write_verdicts(const std::filesystem::path& folder, const std::string& stem, const Image& verdicts,
+                           const Image& object) {
+  std::string file = fmt::format("images/{}.png", stem);
+  write_png(folder / file, verdict_picture(verdicts, object));
+  return file;
+}
+
+std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, const ReferenceView& target) {
+  std::vector<std::array<double, 2>> shares;
+  for (const Image& mask : target.materials) {
+    const CloserShares own = closer_shares(verdicts, mask).value_or(CloserShares{});
+    shares.push_back({own.a, own.b});
+  }
+  return shares;
 }
 
 }  // namespace
@@ -146,6 +189,48 @@ void MethodMeasurer::count_work(Record& record, const StagedMethod& method, cons
   const PixelWork work = pixel_work(counting_.at(&method), view);
   record.fetches = work.lookups;
   record.lobes = work.lobes;
+}
+
+FlickerCauses flicker_causes(const Image& before, const Image& picture, const ReferenceView& target_before,
+                             const ReferenceView& target, float exposure) {
+  const Image& old_reference = target_before.reference.mean;
+  const Image& reference = target.reference.mean;
+  const Image interior = in_both(target_before.parts.interior, target.parts.interior);
+  const Image edges = without(object_pixels(reference), interior);
+  const auto over = [&](const Image& mask) {
+    return part_of(compare_changes_over(before, picture, old_reference, reference, exposure, mask));
+  };
+  FlickerCauses causes{.shading = over(interior), .edges = over(edges), .filter = {}, .method = {}};
+  if (!target_before.bound || !target.bound) return causes;
+  const Image pixels = in_both(target_before.bound->pixels, target.bound->pixels);
+  const Image& old_bound = target_before.bound->picture;
+  const Image& bound = target.bound->picture;
+  causes.filter = part_of(compare_changes_over(old_bound, bound, old_reference, reference, exposure, pixels));
+  causes.method = part_of(compare_changes_over(before, picture, as_reference(old_bound, old_reference),
+                                               as_reference(bound, reference), exposure, pixels));
+  return causes;
+}
+
+std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Record> records,
+                                      std::span<const Image> images, std::span<const std::string> names,
+                                      const ReferenceView& target, float exposure) {
+  const Image object = object_pixels(target.reference.mean);
+  std::vector<MethodPair> pairs;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    for (std::size_t j = i + 1; j < records.size(); ++j) {
+      if (records[i].failure || records[j].failure) continue;
+      const std::optional<Image> verdicts = closer_beyond_noise(images[i], images[j], target.reference, exposure);
+      const auto shares = verdicts ? closer_shares(*verdicts, target.parts.interior) : std::nullopt;
+      if (!shares) continue;
+      const std::string stem = fmt::format("{}_or_{}", distance_stem(target.at.distance, names[i]), names[j]);
+      pairs.push_back({.distance = target.at.distance,
+                       .methods = {records[i].method, records[j].method},
+                       .closer = {shares->a, shares->b},
+                       .materials = shares_by_material(*verdicts, target),
+                       .picture = write_verdicts(folder, stem, *verdicts, object)});
+    }
+  }
+  return pairs;
 }
 
 }  // namespace footprint

@@ -1,8 +1,13 @@
-// One method in one view of a run, compared with what is known there.
+// One method in one view of a run, compared with the reference there, with its frame before and with every other
+// method.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "experiments/studies/reference_view.hpp"
 #include "renderer/pipeline/frame.hpp"
@@ -47,5 +52,18 @@ class MethodMeasurer {
   std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
   std::map<const StagedMethod*, FrameRenderer> counting_;
 };
+
+/// The causes for a method that rendered `before` and then `picture`.
+[[nodiscard]] FlickerCauses flicker_causes(const Image& before, const Image& picture,
+                                           const ReferenceView& target_before, const ReferenceView& target,
+                                           float exposure);
+
+/// One entry for every two methods of one distance, with its image in FOLDER/images; empty if the reference's noise is
+/// unknown, or no pixel is interior.
+/// records, images, names: of each method; a failed method has no image. `names` are parts of file names.
+[[nodiscard]] std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder,
+                                                    std::span<const Record> records, std::span<const Image> images,
+                                                    std::span<const std::string> names, const ReferenceView& target,
+                                                    float exposure);
 
 }  // namespace footprint

@@ -1,26 +1,155 @@
-// The exact NDF of a footprint on a grid of directions, and what each method makes of it.
+// The material that is looked into, of a normal map alone or of a scene; the exact NDF of a footprint on a grid of
+// directions, and what each method makes of it; discs of the hemisphere in false colour, side by side and each alone.
 #include "experiments/studies/ndf_inspection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
 #include "experiments/settings/known_methods.hpp"
-#include "experiments/studies/ndf_pictures.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/image/false_color.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
 
 namespace footprint {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> scene_extensions{".toml", ".gltf", ".glb"};
+constexpr std::array<std::string_view, 10> map_extensions{".exr",  ".png", ".jpg",  ".jpeg", ".tif",
+                                                          ".tiff", ".bmp", ".webp", ".hdr",  ".tga"};
+constexpr double default_exponent = 64.0;
+
+// By its extension, or because it is a file and not a scene.
+bool names_a_map(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (std::ranges::find(map_extensions, extension) != map_extensions.end()) return true;
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) && std::ranges::find(scene_extensions, extension) == scene_extensions.end();
+}
+
+NdfSource load_map(const std::string& path) {
+  NdfSource source{path, true, {}, {}};
+  source.material.name = fs::path(path).stem().string();
+  source.material.brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
+  source.material.normal_map = {
+      fs::path(path).filename().string(), read_normal_map(path, 1.0, NormalChannels::xyz, source.notes), {}};
+  source.material = with_lobe(std::move(source.material), {NormalDistribution::blinn_phong, default_exponent});
+  return source;
+}
+
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return names;
+}
+
+std::size_t material_index(const Scene& scene, const std::string& wanted) {
+  const std::vector<std::string> names = material_names(scene);
+  if (wanted.empty() && names.size() == 1) return 0;
+  if (wanted.empty()) {
+    throw Error(ErrorKind::usage, scene.source, fmt::format("it has {} materials", names.size()),
+                fmt::format("name one with --material: {}, or a number from 0", fmt::join(names, ", ")));
+  }
+  if (const auto found = find_entry(wanted, names)) return *found;
+  throw Error(ErrorKind::usage, "--material", fmt::format("{} has no material `{}`", scene.source, wanted),
+              suggestion(wanted, names));
+}
+
+constexpr float around = 0.18F;  // grey outside of the disc, so that its edge shows
+
+Image one_channel(int size, std::span<const float> densities) {
+  Image image(size, size, 1);
+  std::ranges::copy(densities, image.texels.begin());
+  return image;
+}
+
+bool outside_disc(int size, int column, int row) {
+  const double x = 2.0 * (column + 0.5) / size - 1.0;
+  const double y = 2.0 * (row + 0.5) / size - 1.0;
+  return x * x + y * y >= 1.0;
+}
+
+Image colored(int size, std::span<const float> values, float scale) {
+  Image picture = false_color(one_channel(size, values), scale);
+  for (int row = 0; row < size; ++row) {
+    for (int column = 0; column < size; ++column) {
+      if (outside_disc(size, column, row)) std::ranges::fill(picture.at(column, row), around);
+    }
+  }
+  return picture;
+}
+
+std::vector<float> differences(std::span<const float> a, std::span<const float> b) {
+  std::vector<float> out(a.size());
+  std::ranges::transform(a, b, out.begin(), [](float x, float y) { return std::abs(x - y); });
+  return out;
+}
+
+// A strip with one row of captions: the images and the captions under them.
+struct Row {
+  std::vector<Image> pictures;
+  std::vector<std::string> captions;
+
+  void add(const Image& picture, const std::string& caption) {
+    pictures.push_back(picture);
+    captions.push_back(caption);
+  }
+};
+
+// A density at the pixels of a disc (`disc_directions`), with its caption.
+struct NdfPicture {
+  std::string stem;     // of its files
+  std::string caption;  // ASCII
+  std::vector<float> densities;
+};
+
+// Writes images/STEM.exr and .png for the exact NDF and every method, images/STEM_difference.png for every method, and
+// ndf.png, all of them side by side over the scale, below `folder`; fills in the paths and the scale of `results`,
+// whose records are those of `methods`. The scale runs from 0 to the exact NDF's largest density.
+void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& exact,
+                        std::span<const NdfPicture> methods, NdfResults& results) {
+  const float scale = *std::ranges::max_element(exact.densities);
+  results.scale = scale;
+  const auto write = [&](const NdfPicture& picture, NdfImages& images) {
+    images.density = "images/" + picture.stem + ".exr";
+    images.picture = "images/" + picture.stem + ".png";
+    Image shown = colored(size, picture.densities, scale);
+    write_exr(folder / images.density, one_channel(size, picture.densities));
+    write_png(folder / images.picture, shown);
+    return shown;
+  };
+  Row densities, errors;
+  densities.add(write(exact, results.exact.images), exact.caption);
+  errors.add(Image(size, size, 3, around), "| method - truth |");
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    NdfImages& images = results.records.at(i).images;
+    densities.add(write(methods[i], images), methods[i].caption);
+    images.difference = "images/" + methods[i].stem + "_difference.png";
+    errors.add(colored(size, differences(methods[i].densities, exact.densities), scale), methods[i].caption);
+    write_png(folder / images.difference, errors.pictures.back());
+  }
+  const Image strip =
+      stacked(labelled_strip(densities.pictures, densities.captions), labelled_strip(errors.pictures, errors.captions));
+  const Image legend = false_color_legend(strip.width, std::max(24, size / 12), scale);
+  results.strip = "ndf.png";
+  write_png(folder / results.strip, stacked(strip, legend));
+}
 
 // Pictures are of facets merged within this part of the narrowest lobe's width: within 1e-3 of a lobe's peak.
 constexpr double part_in_pictures = 1.0 / 16.0;
@@ -180,6 +309,24 @@ class NdfEvaluator {
 };
 
 }  // namespace
+
+Material with_lobe(Material material, const Lobe& lobe) {
+  material.brdf.distribution = lobe.distribution;
+  material.lobes.clear();
+  material.lobe_parameter = static_cast<float>(lobe.parameter);
+  return material;
+}
+
+NdfSource load_ndf_source(const std::string& path, const std::string& material, const SceneLibrary& library) {
+  if (names_a_map(path)) {
+    if (material.empty()) return load_map(path);
+    throw Error(ErrorKind::usage, "--material", fmt::format("{} is a map and has no materials", path), "leave it out");
+  }
+  const Scene scene = load_scene(path, library);
+  NdfSource source{path, false, scene.materials.at(material_index(scene, material)), scene.warnings};
+  if (source.material.layer_map) source.notes.emplace_back("the detail layer is left out: one normal map is inspected");
+  return source;
+}
 
 NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const std::filesystem::path& folder,
                        const Progress& progress) {

@@ -1,7 +1,9 @@
-// The pictures of a run as files: what they are called and how they are written.
+// The pictures of a run as files: what they are called and how they are written. Error images are made from the images
+// that were written, on the scale of each distance and on the scale that all distances share.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +12,8 @@
 #include "renderer/image/image.hpp"
 
 namespace footprint {
+
+struct DistanceResult;
 
 /// Two pictures of equally many channels, the first on top, both from the left edge on.
 [[nodiscard]] Image stacked(const Image& top, const Image& bottom);
@@ -51,5 +55,19 @@ struct StripPanel {
 /// of the scale.
 void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<StripPanel>& panels,
                   float exposure, float scale);
+
+/// The 99th percentile of an error image over the pixels that have an error.
+[[nodiscard]] double error_percentile(const Image& error);
+
+/// The top of the false-colour scale for errors up to `largest`: two digits, 0.01 or more.
+/// given: the scale that was requested, which is then returned.
+[[nodiscard]] double error_scale(double largest, const std::optional<double>& given);
+
+/// Writes the strips of a distance and its error images on the scale `top`, and names them in the records; the images
+/// on the shared scale are the same until write_shared_error_images. folder: output folder with the images of `result`.
+void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
+
+/// Writes the error images of a distance on the scale `top` that all distances share, and names them in the records.
+void write_shared_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
 
 }  // namespace footprint

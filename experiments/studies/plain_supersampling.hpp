@@ -1,12 +1,16 @@
-// Plain supersampling as a program without any method would do it: the mean of whole frames whose samples lie elsewhere
-// in the pixel. What methods are compared with at equal work: one sample per pixel is one frame, at pixel centres.
+// Plain supersampling as a program without any method would do it: the mean of whole frames of `direct` whose samples
+// lie elsewhere in the pixel, and the curve of its errors and times. Methods are compared with it at equal work: one
+// sample per pixel is one frame, at pixel centres.
 #pragma once
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
+#include "experiments/studies/stage.hpp"
 #include "renderer/image/image.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
 
@@ -33,5 +37,21 @@ class FrameMean {
   int count_ = 0;
   std::vector<double> sums_;
 };
+
+/// The reference of errors in one view.
+struct ErrorTarget {
+  const View& view;
+  double distance;         ///< its name in the curve
+  const Image& reference;  ///< RGBA
+  const Image& interior;   ///< a mask
+  float exposure = 1;
+};
+
+/// A point for each count of frames that the settings name. The stage's first method is `direct`.
+[[nodiscard]] std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
+                                                             const ErrorTarget& target, ProgressParts& progress);
+
+/// The curve's weight in progress, in samples per pixel.
+[[nodiscard]] double curve_weight(std::span<const int> counts);
 
 }  // namespace footprint

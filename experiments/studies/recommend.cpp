@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
-#include "experiments/studies/run_fingerprint.hpp"
+#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/names.hpp"

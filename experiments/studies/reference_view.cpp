@@ -8,9 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "experiments/studies/converge.hpp"
-#include "experiments/studies/measured_curve.hpp"
 #include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/plain_supersampling.hpp"
 #include "experiments/studies/reference_noise.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/studies/bound.hpp"
 #include "experiments/studies/error_causes.hpp"
 #include "experiments/studies/stage.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
-#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/views.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"

@@ -1,4 +1,5 @@
-// The views of a run, which are its distances or the frames of a path: the positions of camera and lights.
+// The views of a run, which are its distances (given, a zoom's or the scene's own) or the frames of a path: the
+// positions of camera and lights.
 #pragma once
 
 #include <compare>
@@ -8,6 +9,16 @@
 #include "experiments/settings/run_settings.hpp"
 
 namespace footprint {
+
+/// `frames` (2 or more) factors on the camera's distance from `from` to `to` (above 0), at equal ratios: each step
+/// looks like the one before.
+[[nodiscard]] std::vector<double> zoom_distances(double from, double to, int frames);
+
+/// Those that a run asks for, as far as they are known without its scene; empty: the scene decides.
+[[nodiscard]] std::vector<double> given_distances(const ViewSettings& view);
+
+/// Those of a run over `scene`, one or more. Errors (usage): a zoom that ends where it starts.
+[[nodiscard]] std::vector<double> run_distances(const ViewSettings& view, const Scene& scene);
 
 /// One view of the scene.
 struct RunView {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "methods/cells/gaussian.hpp"
+#include "methods/cells/plane.hpp"
 
 namespace footprint::cells {
 namespace {

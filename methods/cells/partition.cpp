@@ -12,7 +12,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "methods/cells/gaussian.hpp"
+#include "methods/cells/plane.hpp"
 
 namespace footprint::cells {
 namespace {

@@ -1,5 +1,5 @@
 // Means over the frames of an animation, each over those that have the figure.
-#include "results/report/animation_table.hpp"
+#include "results/report/report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 
 #include "results/report/figures.hpp"
-#include "results/report/markdown_table.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/ranking.hpp"
 
 namespace footprint {

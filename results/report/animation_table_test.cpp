@@ -1,5 +1,5 @@
 // The table, the lines of results.csv and the caveats of made-up frames.
-#include "results/report/animation_table.hpp"
+#include "results/report/report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "results/report/ranking.hpp"
-#include "results/report/report.hpp"
 #include "tests/report/example_animation.hpp"
 
 namespace footprint {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "renderer/core/error.hpp"
-#include "results/report/text_template.hpp"
+#include "results/report/markup.hpp"
 
 namespace footprint {
 namespace {

@@ -9,8 +9,7 @@
 
 #include "results/report/check_outcomes.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/markdown_table.hpp"
-#include "results/report/text_template.hpp"
+#include "results/report/markup.hpp"
 
 namespace footprint {
 namespace {

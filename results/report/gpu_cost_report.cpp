@@ -11,11 +11,10 @@
 #include "renderer/core/memory.hpp"
 #include "results/report/csv_field.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/markdown_table.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/results_document.hpp"
-#include "results/report/text_template.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {

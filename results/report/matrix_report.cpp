@@ -11,9 +11,9 @@
 #include "results/report/csv_field.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/markdown_table.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/results_document.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "results/report/markdown_table.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/results_document.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {

@@ -12,7 +12,7 @@
 #include "results/report/figures.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/results_document.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {

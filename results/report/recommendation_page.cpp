@@ -8,10 +8,9 @@
 
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/page_shell.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/recommendation.hpp"
-#include "results/report/text_template.hpp"
 
 namespace footprint {
 

@@ -1,9 +1,12 @@
 // Results as files that people and programs read (results.json, results.csv, table.md, index.html), and as printed
-// text.
+// text; the files that an earlier results.json lists.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "results/report/records.hpp"
 
@@ -19,6 +22,14 @@ namespace footprint {
 /// The error and fps table in Markdown, aligned so that it also reads well in a terminal.
 [[nodiscard]] std::string results_table(const Results& results);
 
+/// "a zoom from distance 1 to 8", "an orbit by 60 degrees at distance 1".
+/// results: of an animation (`way`).
+[[nodiscard]] std::string path_words(const Results& results);
+
+/// Two tables in Markdown, one line per method: means over the frames and the worst frame's flicker; the causes of
+/// flicker. results: of an animation (`way`).
+[[nodiscard]] std::string animation_table(const Results& results);
+
 /// The page, whole and self-contained but for the pictures in `images/` beside it; opens from disk without a network.
 [[nodiscard]] std::string results_page(const Results& results);
 
@@ -29,5 +40,35 @@ namespace footprint {
 
 /// Writes the four files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
 void write_report(const Results& results, const std::filesystem::path& folder);
+
+/// The value of `"schema"` in every results.json that this version writes.
+inline constexpr const char* results_schema = "footprint-results/2";
+
+/// The document of docs/results.schema.json, keys in its order; NaN, infinities and absent figures are null.
+[[nodiscard]] nlohmann::ordered_json results_document(const Results& results);
+
+/// A number; null if it is absent or not finite.
+[[nodiscard]] nlohmann::ordered_json json_number(const std::optional<double>& value);
+
+/// JSON text; bytes that are not UTF-8 become U+FFFD.
+/// indent: spaces per level, or -1 for one line.
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& document, int indent);
+
+/// The pictures that a results.json of this program lists, relative to its folder; none where the file is not there, is
+/// another program's, or cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> listed_files(const std::filesystem::path& results_json);
+
+/// A reference that an earlier comparison wrote.
+struct ListedReference {
+  float exposure = 1.0F;                 ///< of that comparison
+  std::filesystem::path standard_error;  ///< EXR
+};
+
+/// The entry of the reference FOLDER/images/NAME.exr in the results.json of FOLDER; none if that document is missing,
+/// or it does not list that image as a reference.
+[[nodiscard]] std::optional<ListedReference> listed_reference(const std::filesystem::path& reference);
+
+/// The files below images/ in an output folder, as paths from it, sorted.
+[[nodiscard]] std::vector<std::string> images_in(const std::filesystem::path& folder);
 
 }  // namespace footprint

@@ -8,18 +8,15 @@
 #include <vector>
 
 #include "renderer/image/false_color.hpp"
-#include "results/report/animation_table.hpp"
 #include "results/report/columns.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/gpu_cost_report.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/matrix_report.hpp"
-#include "results/report/page_shell.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
-#include "results/report/results_document.hpp"
-#include "results/report/text_template.hpp"
 
 namespace footprint {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "renderer/core/error.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/report.hpp"
-#include "results/report/text_template.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/fresh_folder.hpp"
 

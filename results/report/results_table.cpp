@@ -12,12 +12,11 @@
 #include <sstream>
 #include <string_view>
 
-#include "results/report/animation_table.hpp"
 #include "results/report/columns.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/gpu_cost_report.hpp"
-#include "results/report/markdown_table.hpp"
+#include "results/report/markup.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"

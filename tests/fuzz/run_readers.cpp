@@ -4,7 +4,7 @@
 
 #include "app/part_file.hpp"
 #include "experiments/runner/experiment.hpp"
-#include "results/report/listed_files.hpp"
+#include "results/report/report.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace footprint::fuzz {

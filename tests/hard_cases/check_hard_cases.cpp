@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
-#include "app/standard_output.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "tests/hard_cases/hard_report.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "results/report/equivalent_spp.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

@@ -1,5 +1,5 @@
 // `--set KIND.PARAMETER=FROM:TO`: what it means in each frame, and every way to get it wrong.
-#include "experiments/studies/parameter_sweep.hpp"
+#include "experiments/studies/edit.hpp"
 
 #include <gtest/gtest.h>
 

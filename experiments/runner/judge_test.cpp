@@ -1,5 +1,5 @@
 // Thresholds within the reference's noise: refused while the run goes on, as soon as nothing that is to come can help.
-#include "experiments/runner/noise_guard.hpp"
+#include "experiments/runner/judge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,14 @@
-// Pads cells to the width of their column, and escapes what Markdown would take for markup.
-#include "results/report/markdown_table.hpp"
+// Pads and escapes the cells of tables, and fills names in templates.
+#include "results/report/markup.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 #include <string_view>
 
-#include "results/report/text_template.hpp"
+#include "renderer/core/embedded_texts.hpp"
 
 namespace footprint {
 namespace {
@@ -105,6 +106,75 @@ std::string html_table(const Table& table) {
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
+}
+
+std::string fill_template(std::string_view page, const std::map<std::string, std::string_view>& values) {
+  std::string filled;
+  for (;;) {
+    const std::size_t open = page.find("{{");
+    const std::size_t close = open == std::string_view::npos ? open : page.find("}}", open);
+    if (close == std::string_view::npos) return filled.append(page);
+    const std::string name(page.substr(open + 2, close - open - 2));
+    const auto value = values.find(name);
+    if (value == values.end()) throw std::logic_error("the page's template asks for `" + name + "`");
+    filled.append(page.substr(0, open)).append(value->second);
+    page.remove_prefix(close + 2);
+  }
+}
+
+std::string html_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char character : text) {
+    switch (character) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += character;
+    }
+  }
+  return escaped;
+}
+
+std::string script_escaped(std::string_view json) {
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char character : json) {
+    if (character == '<') {
+      escaped += "\\u003c";
+    } else {
+      escaped += character;
+    }
+  }
+  return escaped;
+}
+
+namespace embedded {
+extern const EmbeddedTexts page_texts;
+}
+
+std::string_view page_text(std::string_view file) { return find_text(embedded::page_texts, file)->text; }
+
+std::string fill_page(const PageShell& shell, std::map<std::string, std::string_view> values) {
+  const std::string title = html_escaped(shell.title);
+  const std::string head =
+      fill_template(page_text("head.html"), {{"title", title},
+                                             {"css", page_text("page.css")},
+                                             {"script-policy", shell.scripts ? "; script-src 'unsafe-inline'" : ""}});
+  values["head"] = head;
+  return fill_template(page_text(shell.file), values);
 }
 
 }  // namespace footprint

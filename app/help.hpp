@@ -1,17 +1,30 @@
-// Completions of the command line in a shell. The program itself offers the words, so a shell's script is a few lines.
+// What the command line says of itself: `--help` and the completions in a shell. The program itself offers a shell's
+// words, so the shell's script is a few lines.
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace footprint {
+
+/// Prints an option as "-o, --output DIR", its meaning, its range and its default.
+class HelpFormat : public CLI::Formatter {
+ public:
+  static constexpr std::size_t width = 100;
+
+  HelpFormat();
+
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+  std::string make_description(const CLI::App* app) const override;
+  std::string make_usage(const CLI::App* app, std::string name) const override;
+  std::string make_option(const CLI::Option* option, bool is_positional) const override;
+  std::string make_subcommand(const CLI::App* command) const override;
+};
 
 /// The names that `footprint list KIND` prints.
 using NamesOf = std::function<std::vector<std::string>(std::string_view kind)>;

@@ -28,6 +28,7 @@ void set_estimated_times(Record& record, const std::string& gpu) {
   const double ms = is_known ? ms_per_ns * cost->cost_ns : not_estimated;
   record.frame_ms = FrameTime{.median = ms, .minimum = ms, .p90 = ms};
   record.fps = 1000.0 / ms;
+  record.node.clear();  // an estimate does not depend on the host
   if (!record.frame_build_ms) return;
   record.frame_build_ms = is_known ? ms_per_ns * cost->passes_ns : not_estimated;
   record.frame_build = BuildTiming::every_frame;
@@ -52,8 +53,10 @@ std::vector<std::string> estimated_gpus(const Results& results) {
 // estimated_gpus.
 Results with_estimated_times(Results results, const std::string& gpu) {
   for (Record& record : results.records) set_estimated_times(record, gpu);
-  for (SupersamplingPoint& point : results.supersampling)
+  for (SupersamplingPoint& point : results.supersampling) {
     point.ms = point.spp * direct_ms(results.records, point.distance);
+    point.node.clear();
+  }
   return results;
 }
 

@@ -56,7 +56,7 @@ class Costs(WholeRunTest):
         self.assertEqual(float(rows[0]["cost_ns"]), report["methods"][0]["gpus"][0]["cost_ns"])
 
     def test_more_lobes_cost_more_under_four_lights(self):
-        steps = [["tan_gmm:n=2", "tan_gmm:n=4"], ["xu_vmf:j=1", "xu_vmf:j=4"]]
+        steps = [["tan_gmm:n=2", "tan_gmm:n=4"], ["cells:k=2", "cells:k=4"], ["xu_vmf:j=1", "xu_vmf:j=4"]]
         done = cost("carved_disk", "--size", "32x32", "--methods", ",".join(sum(steps, [])), "--gpu", "RX 480", "-o",
                     self.folder / "lobes")
         self.assertEqual(done.returncode, 0, done.stderr)

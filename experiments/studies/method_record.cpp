@@ -214,6 +214,7 @@ FlickerCauses flicker_causes(const Image& before, const Image& picture, const Re
 std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Record> records,
                                       std::span<const Image> images, std::span<const std::string> names,
                                       const ReferenceView& target, float exposure) {
+  if (records.size() > most_methods_in_pairs) return {};
   const Image object = object_pixels(target.reference.mean);
   std::vector<MethodPair> pairs;
   for (std::size_t i = 0; i < records.size(); ++i) {

@@ -109,11 +109,6 @@ std::vector<CostedProgram> programs_of(const CostedFrame& frame) {
   return programs;
 }
 
-CompileOutcome no_failure(ChipOutcomes outcomes) {
-  if (!outcomes.programs.front().stage) throw Error(ErrorKind::machine, "--gpu", outcomes.programs.front().failure);
-  return std::move(outcomes.programs.front());
-}
-
 void set_statistics(GpuCost& cost, const CompiledStage& stage) {
   const auto figure = [&](const char* name) {
     const auto found = stage.statistics.find(name);
@@ -169,10 +164,12 @@ GpuCosts::GpuCosts(const Stage& stage, const std::vector<std::string>& gpus, Gpu
     : stage_(stage), compile_(std::move(compile)) {
   const SpirvProgram program = calibration();
   for (const Chip* chip : chips_named("--gpu", gpus)) {
-    ChipOutcomes outcomes = compile_(*chip, {&program, 1}, no_progress);
+    const ChipOutcomes outcomes = compile_(*chip, {&program, 1}, no_progress);
+    const CompileOutcome& outcome = outcomes.programs.front();
     compiler_ = outcomes.device.substr(0, outcomes.device.rfind(' '));
     chips_.push_back({.chip = chip,
-                      .between_descriptors = descriptor_bytes(no_failure(std::move(outcomes)).stage->code),
+                      .failure = outcome.failure,
+                      .between_descriptors = outcome.stage ? descriptor_bytes(outcome.stage->code) : 0,
                       .compiled = {}});
   }
 }
@@ -225,6 +222,7 @@ std::vector<WeighedProgram> GpuCosts::weighed_programs(const StagedMethod& metho
 }
 
 void GpuCosts::compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress) {
+  if (!chip.failure.empty()) return;
   std::vector<SpirvProgram> missing;
   std::vector<CompileOutcome*> places;
   for (const CostedProgram& program : programs_of(frame)) {
@@ -242,6 +240,10 @@ void GpuCosts::compile_missing(CompilingChip& chip, const CostedFrame& frame, co
 GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   GpuCost cost;
   cost.gpu = chip.chip->name;
+  if (!chip.failure.empty()) {
+    cost.failure = chip.failure;
+    return cost;
+  }
   for (const CostedProgram& program : programs_of(frame)) {
     const CompileOutcome& outcome = chip.compiled.at(program);
     if (outcome.stage) continue;

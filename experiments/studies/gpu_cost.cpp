@@ -124,20 +124,6 @@ void set_statistics(GpuCost& cost, const CompiledStage& stage) {
   cost.compile_seconds = stage.seconds;
 }
 
-void set_estimate(GpuCost& cost, const CostEstimate& estimate) {
-  cost.cost_ns = estimate.cost_ns();
-  cost.bound = word_for(cost_bounds, estimate.bound());
-  cost.arithmetic_ns = estimate.arithmetic_ns;
-  cost.texture_ns = estimate.texture_ns;
-  cost.bandwidth_ns = estimate.bandwidth_ns;
-  cost.alu_clocks = estimate.alu_clocks;
-  cost.texture_reads = estimate.texture_reads;
-  cost.reads_by_format = estimate.reads_by_format;
-  cost.bytes_fetched = estimate.bytes_fetched;
-  cost.bytes_from_memory = estimate.bytes_from_memory;
-  cost.loop_rounds = estimate.loop_rounds;
-}
-
 // A method and its footprint filter, on which its programs depend.
 std::string name_of(const StagedMethod& method) {
   return fmt::format("{}, {}", method.baked().spec.text, footprint_filter_text(method.filter()));
@@ -253,9 +239,8 @@ GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   std::vector<WeighedWork> works;
   for (const WeighedProgram& one : frame.programs)
     works.push_back({one.weight, shader_work(chip.compiled.at(one.program).stage->code, chip.between_descriptors)});
+  cost = estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes, frame.work.finest_areas);
   set_statistics(cost, *chip.compiled.at(frame.programs.front().program).stage);
-  set_estimate(cost, estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes,
-                              frame.work.finest_areas));
   if (frame.work.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.work.pixels;
   cost.cost_ns += cost.passes_ns;
   return cost;
@@ -272,9 +257,9 @@ double GpuCosts::passes_ns(const CompilingChip& chip, const CostedFrame& frame) 
     }
     const auto [work, is_new] = works.try_emplace(program_of(draw));
     if (is_new) work->second = shader_work(chip.compiled.at(work->first).stage->code, chip.between_descriptors);
-    const CostEstimate pixel =
+    const GpuCost pixel =
         estimate(*chip.chip, {{1.0, work->second}}, draw.lookups, costs_of(draw.textures), written_bytes(draw));
-    sum += draw.pixels * pixel.cost_ns();
+    sum += draw.pixels * pixel.cost_ns;
   }
   return sum;
 }

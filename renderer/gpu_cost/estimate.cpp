@@ -69,7 +69,7 @@ Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, d
   }
   loop_rounds = 1.0;
   if (const double reads = looped.texture_reads(); reads > 0)
-    loop_rounds = std::max((lookups - straight.texture_reads()) / reads, 1.0);
+    loop_rounds = std::max((lookups - straight.texture_reads()) / reads, 0.0);
   straight.add(looped, loop_rounds);
   return straight;
 }

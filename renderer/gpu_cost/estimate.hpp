@@ -33,7 +33,8 @@ struct WeighedWork {
 /// those that were counted.
 /// works: the programs of the frame; at least one.
 /// lookups: texture lookups per pixel, counted on the software renderer.
-/// loop_rounds: set to the rounds; 1 without such loops, or if they read no texture.
+/// loop_rounds: set to the mean rounds, below 1 if some pixels skip the loops; 1 without such loops, or if they read no
+/// texture.
 [[nodiscard]] Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds);
 
 /// The texels that a bilinear sample fetches from memory if neighbouring samples are far apart on the map: whole lines.

@@ -213,6 +213,8 @@ TEST(Estimate, RunsRemainingLoopsUntilLookupsAgree) {
   EXPECT_EQ(rounds, 10);
   EXPECT_EQ(frame.full, 200);
   EXPECT_EQ(frame.texture_reads(), 42);
+  EXPECT_EQ(frame_work({{1, work}}, 4, rounds).full, 105);  // half of the pixels skip the loop
+  EXPECT_EQ(rounds, 0.5);
 }
 
 // The lines that bilinear samples touch, counted on a grid of samples `step` texels apart over a map that repeats.

@@ -67,6 +67,12 @@ class Costs(WholeRunTest):
         for less, more in steps:
             self.assertLess(1.2 * alu[less], alu[more])
 
+    def test_every_light_counts_where_its_loop_contains_others(self):
+        report = self.report("lights", "--methods", "ndf_atlas", "--gpu", "RX 480,Steam Deck", "--footprint", "trilinear",
+                             scene=["carved_disk", "--size", "32x32"])
+        for gpu in report["methods"][0]["gpus"]:
+            self.assertEqual(gpu["reads_by_format"]["32-bit bilinear"], 8)  # two tables for each of four lights
+
     def test_more_probes_cost_more(self):
         figures = [self.report(name, "--methods", "lean", "--gpu", "Steam Deck", "--footprint", name)["methods"][0]
                    for name in ("box:1", "box:2", "box:4")]

@@ -41,7 +41,7 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
       .further_times = further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, "")),
       .finished = &finished,
       .watch = watch,
-      .gpu_compiler = amd_compiler()};
+      .gpu_compiler = amd_compiler_if_installed()};
   Results results = run_experiment(experiment, folder.path(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
@@ -204,7 +204,8 @@ void run_part(const RequestedExperiments& requested, const Shard& shard, const f
     measure_unit(*experiment, unit, pictures, progress,
                  {.further_times = further_times_of(*experiment, pictures, progress),
                   .finished = &finished,
-                  .watch = guards.at(experiment)->watch(*experiment)});
+                  .watch = guards.at(experiment)->watch(*experiment),
+                  .gpu_compiler = amd_compiler_if_installed()});
   }
   display.finish();
 }

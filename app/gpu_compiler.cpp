@@ -111,6 +111,17 @@ ChipOutcomes compile(const Chip& chip, std::span<const SpirvProgram> programs, c
 
 GpuCompiler amd_compiler() { return compile; }
 
+GpuCompiler amd_compiler_if_installed() {
+  return [](const Chip& chip, std::span<const SpirvProgram> programs, const Progress& progress) {
+    try {
+      return compile(chip, programs, progress);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::machine) throw;
+      return ChipOutcomes{.device = {}, .programs = {programs.size(), {.stage = {}, .failure = error.what()}}};
+    }
+  };
+}
+
 void add_compile_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(compile_command, "Compile the programs in a folder");
   const auto folder = std::make_shared<std::string>();

@@ -13,4 +13,7 @@ inline constexpr const char* compile_command = "compile-for-gpu";
 /// Throws Error (machine): the driver is not installed, with the package; a process cannot be started.
 [[nodiscard]] GpuCompiler amd_compiler();
 
+/// The same, but each outcome has the reason if the driver is missing or a process cannot be started.
+[[nodiscard]] GpuCompiler amd_compiler_if_installed();
+
 }  // namespace footprint

@@ -52,13 +52,18 @@ void write_and_print_animation(const std::filesystem::path& output,
 }
 
 std::optional<Error> row_failures(const Results& results) {
-  const auto is_failed = [](const Record& record) { return record.failure.has_value(); };
+  const auto failure_of = [](const Record& record) {
+    if (record.failure) return record.failure;
+    const auto missing = std::ranges::find_if(record.gpu_costs, [](const GpuCost& cost) { return !!cost.failure; });
+    return missing == record.gpu_costs.end() ? std::optional<std::string>() : missing->failure;
+  };
+  const auto is_failed = [&](const Record& record) { return !!failure_of(record); };
   const auto first = std::ranges::find_if(results.records, is_failed);
   if (first == results.records.end()) return {};
   return Error(ErrorKind::check, results.scene.name,
                fmt::format("{} of {} rows failed; the first, at distance {:g}: {}",
                            std::ranges::count_if(results.records, is_failed), results.records.size(), first->distance,
-                           *first->failure));
+                           *failure_of(*first)));
 }
 
 }  // namespace footprint

@@ -34,7 +34,8 @@ void print_results(const Results& results, const std::filesystem::path& folder, 
 void write_and_print_animation(const std::filesystem::path& output,
                                const std::function<Results(const std::filesystem::path& folder)>& make);
 
-/// The error (check) for a run in which rows failed, to be thrown once everything else is written; none if all passed.
+/// The error (check) for a run in which rows failed or lack an estimate for a GPU, to be thrown once everything else is
+/// written; none if all passed.
 [[nodiscard]] std::optional<Error> row_failures(const Results& results);
 
 /// The result of `write`, which fills and commits the folder, and the folder's place. Removes a folder that was not

@@ -101,6 +101,7 @@ using Evaluate = decltype(FigureFunction::evaluate);
 // The figure of one record.
 struct Sample {
   Figure value;
+  std::string absent{};  // why there is none, if the record says so
   bool at_noise_floor = false;
   Figure noise_floor{};  // of an error
   std::string node{};    // of a time
@@ -124,7 +125,10 @@ class Samples {
  public:
   void add(const Sample& sample) {
     ++matching_;
-    if (!sample.value) return;
+    if (!sample.value) {
+      absent_ = sample.absent;
+      return;
+    }
     sum_ += *sample.value;
     ++count_;
     noisy_ += sample.at_noise_floor ? 1 : 0;
@@ -136,7 +140,7 @@ class Samples {
   // `absent` is the problem where none of them has the figure.
   [[nodiscard]] Measured mean(const std::string& absent) const {
     if (matching_ == 0) return no_figure("the run has no such record");
-    if (count_ == 0) return no_figure(absent);
+    if (count_ == 0) return no_figure(absent_.empty() ? absent : absent_);
     Measured mean = mean_of(sum_, count_);
     mean.at_noise_floor = noisy_ == count_;
     if (with_floor_ == count_) mean.noise_floor = floors_ / static_cast<double>(count_);
@@ -148,6 +152,7 @@ class Samples {
   double sum_ = 0, floors_ = 0;
   std::size_t count_ = 0, noisy_ = 0, matching_ = 0, with_floor_ = 0;
   std::set<std::string> nodes_;
+  std::string absent_;
 };
 
 // The mean over the records that are selected; `absent` is the problem where none of them has the figure.
@@ -211,8 +216,9 @@ Evaluate over_gpu(Value GpuCost::*member) {
   return over_samples(
       [member](const Measure& measure, const Record& record) {
         for (const GpuCost& cost : record.gpu_costs) {
-          if (!cost.failure && (!measure.gpu || cost.gpu == *measure.gpu))
-            return Sample{.value = static_cast<double>(cost.*member)};
+          if (measure.gpu && cost.gpu != *measure.gpu) continue;
+          if (cost.failure) return Sample{.value = {}, .absent = *cost.failure};
+          return Sample{.value = static_cast<double>(cost.*member)};
         }
         return Sample{};
       },

@@ -163,12 +163,13 @@ std::vector<std::uint32_t> set_pixels(const Image& mask) {
   return pixels;
 }
 
-// A view in which a method failed is measured again, unless everything must be there.
+// A view in which a method or an estimate failed is measured again, unless everything must be there.
 std::optional<DistanceResult> finished_view(const Job& job, std::size_t i) {
   auto result = job.find<DistanceResult>(part_name(job, i));
   if (!result || result->records.size() != job.settings.methods.size()) return {};
-  const bool any_failed =
-      std::ranges::any_of(result->records, [](const Record& record) { return record.failure.has_value(); });
+  const bool any_failed = std::ranges::any_of(result->records, [](const Record& record) {
+    return record.failure || std::ranges::any_of(record.gpu_costs, [](const GpuCost& cost) { return !!cost.failure; });
+  });
   if (any_failed && !job.context.finished->is_complete()) return {};
   for (Record& record : result->records) record.frame = static_cast<int>(i);
   if (result->wanted_noise && job.context.shared != nullptr)

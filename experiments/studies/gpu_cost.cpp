@@ -109,11 +109,6 @@ std::vector<CostedProgram> programs_of(const CostedFrame& frame) {
   return programs;
 }
 
-CompileOutcome no_failure(ChipOutcomes outcomes) {
-  if (!outcomes.programs.front().stage) throw Error(ErrorKind::machine, "--gpu", outcomes.programs.front().failure);
-  return std::move(outcomes.programs.front());
-}
-
 void set_statistics(GpuCost& cost, const CompiledStage& stage) {
   const auto figure = [&](const char* name) {
     const auto found = stage.statistics.find(name);
@@ -127,20 +122,6 @@ void set_statistics(GpuCost& cost, const CompiledStage& stage) {
   cost.shader_bytes = figure("Code size");
   cost.scratch_bytes = figure("Scratch size");
   cost.compile_seconds = stage.seconds;
-}
-
-void set_estimate(GpuCost& cost, const CostEstimate& estimate) {
-  cost.cost_ns = estimate.cost_ns();
-  cost.bound = word_for(cost_bounds, estimate.bound());
-  cost.arithmetic_ns = estimate.arithmetic_ns;
-  cost.texture_ns = estimate.texture_ns;
-  cost.bandwidth_ns = estimate.bandwidth_ns;
-  cost.alu_clocks = estimate.alu_clocks;
-  cost.texture_reads = estimate.texture_reads;
-  cost.reads_by_format = estimate.reads_by_format;
-  cost.bytes_fetched = estimate.bytes_fetched;
-  cost.bytes_from_memory = estimate.bytes_from_memory;
-  cost.loop_rounds = estimate.loop_rounds;
 }
 
 // A method and its footprint filter, on which its programs depend.
@@ -169,10 +150,12 @@ GpuCosts::GpuCosts(const Stage& stage, const std::vector<std::string>& gpus, Gpu
     : stage_(stage), compile_(std::move(compile)) {
   const SpirvProgram program = calibration();
   for (const Chip* chip : chips_named("--gpu", gpus)) {
-    ChipOutcomes outcomes = compile_(*chip, {&program, 1}, no_progress);
+    const ChipOutcomes outcomes = compile_(*chip, {&program, 1}, no_progress);
+    const CompileOutcome& outcome = outcomes.programs.front();
     compiler_ = outcomes.device.substr(0, outcomes.device.rfind(' '));
     chips_.push_back({.chip = chip,
-                      .between_descriptors = descriptor_bytes(no_failure(std::move(outcomes)).stage->code),
+                      .failure = outcome.failure,
+                      .between_descriptors = outcome.stage ? descriptor_bytes(outcome.stage->code) : 0,
                       .compiled = {}});
   }
 }
@@ -225,6 +208,7 @@ std::vector<WeighedProgram> GpuCosts::weighed_programs(const StagedMethod& metho
 }
 
 void GpuCosts::compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress) {
+  if (!chip.failure.empty()) return;
   std::vector<SpirvProgram> missing;
   std::vector<CompileOutcome*> places;
   for (const CostedProgram& program : programs_of(frame)) {
@@ -242,6 +226,10 @@ void GpuCosts::compile_missing(CompilingChip& chip, const CostedFrame& frame, co
 GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   GpuCost cost;
   cost.gpu = chip.chip->name;
+  if (!chip.failure.empty()) {
+    cost.failure = chip.failure;
+    return cost;
+  }
   for (const CostedProgram& program : programs_of(frame)) {
     const CompileOutcome& outcome = chip.compiled.at(program);
     if (outcome.stage) continue;
@@ -251,9 +239,8 @@ GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   std::vector<WeighedWork> works;
   for (const WeighedProgram& one : frame.programs)
     works.push_back({one.weight, shader_work(chip.compiled.at(one.program).stage->code, chip.between_descriptors)});
+  cost = estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes, frame.work.finest_areas);
   set_statistics(cost, *chip.compiled.at(frame.programs.front().program).stage);
-  set_estimate(cost, estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes,
-                              frame.work.finest_areas));
   if (frame.work.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.work.pixels;
   cost.cost_ns += cost.passes_ns;
   return cost;
@@ -270,9 +257,9 @@ double GpuCosts::passes_ns(const CompilingChip& chip, const CostedFrame& frame) 
     }
     const auto [work, is_new] = works.try_emplace(program_of(draw));
     if (is_new) work->second = shader_work(chip.compiled.at(work->first).stage->code, chip.between_descriptors);
-    const CostEstimate pixel =
+    const GpuCost pixel =
         estimate(*chip.chip, {{1.0, work->second}}, draw.lookups, costs_of(draw.textures), written_bytes(draw));
-    sum += draw.pixels * pixel.cost_ns();
+    sum += draw.pixels * pixel.cost_ns;
   }
   return sum;
 }

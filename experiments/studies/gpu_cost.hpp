@@ -43,8 +43,8 @@ struct CostedFrame {
 class GpuCosts {
  public:
   /// Keeps the stage's address.
-  /// gpus: as chips_named takes them.
-  /// Throws Error (usage): no such GPU; (machine): no driver.
+  /// gpus: as chips_named takes them. A chip for which `compile` fails costs the figures of that GPU.
+  /// Throws Error (usage): no such GPU; those of `compile`.
   GpuCosts(const Stage& stage, const std::vector<std::string>& gpus, GpuCompiler compile);
 
   /// The costs of a method that can be drawn, for one view. A program that the driver refuses costs the figures of its
@@ -57,6 +57,7 @@ class GpuCosts {
  private:
   struct CompilingChip {
     const Chip* chip;
+    std::string failure;  // why nothing can be compiled for it, or empty
     int between_descriptors;
     std::map<CostedProgram, CompileOutcome> compiled;
   };

@@ -42,7 +42,9 @@ void fillTables(inout Effective e, Footprint f, float ratio) {
                 clamp((ratio - tabulated_ratio.x) / (tabulated_ratio.y - tabulated_ratio.x), 0.0, 1.0);
   float covered = findTables(f, finest, p, e.tables);
   if (share <= 0.0 || covered <= 0.0) {
-    e.tables.probes.count = 0;
+//? if not fixed_trips
+    e.tables.probes.count = 0;  // not a constant: compilers would not unroll the loops over lights
+//? end
     return;
   }
   e.table_share = share / covered;

@@ -38,7 +38,7 @@ double new_texels(const TextureCost& texture, double line_bytes, std::span<const
 }
 
 // The lookups of shaders; a gather counts once for each of its reads.
-void add_texture(CostEstimate& estimate, const Chip& chip, const TextureReads& reads, const TextureCost& texture,
+void add_texture(GpuCost& estimate, const Chip& chip, const TextureReads& reads, const TextureCost& texture,
                  std::span<const float> finest_areas) {
   const double samples = std::max(reads.samples, 0.0), gathers = std::max(reads.gathers, 0.0);
   const double loads = std::max(reads.loads, 0.0);
@@ -61,13 +61,6 @@ void add_texture(CostEstimate& estimate, const Chip& chip, const TextureReads& r
 
 }  // namespace
 
-double CostEstimate::cost_ns() const { return std::max({arithmetic_ns, texture_ns, bandwidth_ns}); }
-
-CostBound CostEstimate::bound() const {
-  if (arithmetic_ns >= texture_ns && arithmetic_ns >= bandwidth_ns) return CostBound::arithmetic;
-  return texture_ns >= bandwidth_ns ? CostBound::textures : CostBound::bandwidth;
-}
-
 Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds) {
   Instructions straight, looped;
   for (const WeighedWork& one : works) {
@@ -76,15 +69,16 @@ Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, d
   }
   loop_rounds = 1.0;
   if (const double reads = looped.texture_reads(); reads > 0)
-    loop_rounds = std::max((lookups - straight.texture_reads()) / reads, 1.0);
+    loop_rounds = std::max((lookups - straight.texture_reads()) / reads, 0.0);
   straight.add(looped, loop_rounds);
   return straight;
 }
 
-CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                      const std::map<int, TextureCost>& textures, double written_bytes,
-                      std::span<const float> finest_areas) {
-  CostEstimate estimate;
+GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
+                 const std::map<int, TextureCost>& textures, double written_bytes,
+                 std::span<const float> finest_areas) {
+  GpuCost estimate;
+  estimate.gpu = chip.name;
   const Instructions work = frame_work(works, lookups, estimate.loop_rounds);
   estimate.alu_clocks = alu_clocks(*chip.generation, work) / pixels_of_a_wave;
   estimate.arithmetic_ns = estimate.alu_clocks / (chip.compute_units * chip.generation->simds * chip.ghz);
@@ -94,6 +88,10 @@ CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, d
   }
   estimate.bytes_from_memory += written_bytes;
   estimate.bandwidth_ns = estimate.bytes_from_memory / chip.gigabytes_per_second;
+  estimate.cost_ns = std::max({estimate.arithmetic_ns, estimate.texture_ns, estimate.bandwidth_ns});
+  estimate.bound = estimate.cost_ns == estimate.arithmetic_ns ? "arithmetic"
+                   : estimate.cost_ns == estimate.texture_ns  ? "textures"
+                                                              : "bandwidth";
   return estimate;
 }
 

@@ -1,13 +1,12 @@
 // The cost of a frame on a chip: the counted work of a program against the chip's rates.
 #pragma once
 
-#include <array>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "renderer/core/names.hpp"
+#include "renderer/core/gpu_cost.hpp"
 #include "renderer/gpu_cost/chips.hpp"
 #include "renderer/gpu_cost/shader_work.hpp"
 
@@ -30,35 +29,12 @@ struct WeighedWork {
   ShaderWork work;
 };
 
-/// The bound that a frame's cost comes from.
-enum class CostBound { arithmetic, textures, bandwidth };
-
-inline constexpr std::array<Word<CostBound>, 3> cost_bounds{{
-    {CostBound::arithmetic, "arithmetic"},
-    {CostBound::textures, "textures"},
-    {CostBound::bandwidth, "bandwidth"},
-}};
-
-/// An estimate for one pixel that the object covers.
-struct CostEstimate {
-  double alu_clocks = 0;                          ///< of one SIMD, arithmetic of all kinds
-  double texture_reads = 0;                       ///< texture instructions
-  std::map<std::string, double> reads_by_format;  ///< such as "64-bit trilinear"
-  double bytes_fetched = 0;                       ///< by all reads, before any cache
-  double bytes_from_memory = 0;                   ///< of texels new to the pixel, and of the pixel itself
-  double loop_rounds = 1;                         ///< rounds of the loops that the compiler did not unroll
-  double arithmetic_ns = 0, texture_ns = 0, bandwidth_ns = 0;
-
-  /// The largest of the three, nanoseconds; so many milliseconds per million pixels.
-  [[nodiscard]] double cost_ns() const;
-  [[nodiscard]] CostBound bound() const;
-};
-
 /// The work of a frame per pixel: the weighed sum, with loops that were not unrolled run until the lookups agree with
 /// those that were counted.
 /// works: the programs of the frame; at least one.
 /// lookups: texture lookups per pixel, counted on the software renderer.
-/// loop_rounds: set to the rounds; 1 without such loops, or if they read no texture.
+/// loop_rounds: set to the mean rounds, below 1 if some pixels skip the loops; 1 without such loops, or if they read no
+/// texture.
 [[nodiscard]] Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, double& loop_rounds);
 
 /// The texels that a bilinear sample fetches from memory if neighbouring samples are far apart on the map: whole lines.
@@ -69,13 +45,12 @@ struct CostEstimate {
 /// The bytes of a frame's target: four half floats.
 inline constexpr double frame_pixel_bytes = 8;
 
-/// The estimate on a chip.
-/// textures: by binding.
-/// written_bytes: of a pixel, in all targets.
-/// finest_areas: of each pixel on maps with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
-[[nodiscard]] CostEstimate estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                                    const std::map<int, TextureCost>& textures,
-                                    double written_bytes = frame_pixel_bytes, std::span<const float> finest_areas = {});
+/// The estimate on a chip, without the passes before the frame. It lacks `ratio_to_direct` and what the driver reports
+/// of a program. textures: by binding. written_bytes: of a pixel, in all targets. finest_areas: of each pixel on maps
+/// with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
+[[nodiscard]] GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
+                               const std::map<int, TextureCost>& textures, double written_bytes = frame_pixel_bytes,
+                               std::span<const float> finest_areas = {});
 
 /// The time of a copy on a chip, which memory bounds: each byte is read and written once. Nanoseconds.
 [[nodiscard]] double copy_ns(const Chip& chip, double bytes);

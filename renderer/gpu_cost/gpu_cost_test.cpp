@@ -172,14 +172,14 @@ ShaderWork work_with(double full, double samples) {
 // 8 units of 2 SIMDs at 1.6 GHz: an instruction of a wave takes 2 clocks of a SIMD, so 2 / 64 / 25.6 ns per pixel.
 TEST(Estimate, IsTheLargestBound) {
   const std::map<int, TextureCost> textures{{0, {.name = "map", .bits = 32, .trilinear = true, .bytes = 1e6}}};
-  const CostEstimate arithmetic = estimate(deck(), {{1, work_with(640, 1)}}, 1, textures);
+  const GpuCost arithmetic = estimate(deck(), {{1, work_with(640, 1)}}, 1, textures);
   EXPECT_NEAR(arithmetic.arithmetic_ns, 640 * 2 / 64.0 / 25.6, 1e-12);
-  EXPECT_EQ(arithmetic.bound(), CostBound::arithmetic);
-  const CostEstimate reads = estimate(deck(), {{1, work_with(64, 100)}}, 100, textures);
+  EXPECT_EQ(arithmetic.bound, "arithmetic");
+  const GpuCost reads = estimate(deck(), {{1, work_with(64, 100)}}, 100, textures);
   EXPECT_NEAR(reads.texture_ns, 100 * 2 / (4 * 8 * 1.6), 1e-12);
   EXPECT_NEAR(reads.bandwidth_ns, (100 * 1.25 * 4 + 8) / 88, 1e-12);
   EXPECT_EQ(reads.bytes_fetched, 100 * 8 * 4);
-  EXPECT_EQ(reads.cost_ns(), std::max(reads.texture_ns, reads.bandwidth_ns));
+  EXPECT_EQ(reads.cost_ns, std::max(reads.texture_ns, reads.bandwidth_ns));
 }
 
 // A pass that averages four texels of 16 bytes into one: each is read once. A copy reads and writes.
@@ -187,10 +187,10 @@ TEST(Estimate, OfAPassCountsWhatItWrites) {
   ShaderWork work;
   work.looped.textures[0].loads = 1;
   const std::map<int, TextureCost> textures{{0, {.name = "map", .bits = 128, .trilinear = false, .bytes = 1e6}}};
-  const CostEstimate pass = estimate(deck(), {{1, work}}, 4, textures, 16);
+  const GpuCost pass = estimate(deck(), {{1, work}}, 4, textures, 16);
   EXPECT_EQ(pass.bytes_from_memory, 4 * 16 + 16);
   EXPECT_NEAR(pass.bandwidth_ns, 80 / 88.0, 1e-12);
-  EXPECT_EQ(pass.bound(), CostBound::bandwidth);
+  EXPECT_EQ(pass.bound, "bandwidth");
   EXPECT_NEAR(copy_ns(deck(), 88e6), 2e6, 1e-6);
 }
 
@@ -213,6 +213,8 @@ TEST(Estimate, RunsRemainingLoopsUntilLookupsAgree) {
   EXPECT_EQ(rounds, 10);
   EXPECT_EQ(frame.full, 200);
   EXPECT_EQ(frame.texture_reads(), 42);
+  EXPECT_EQ(frame_work({{1, work}}, 4, rounds).full, 105);  // half of the pixels skip the loop
+  EXPECT_EQ(rounds, 0.5);
 }
 
 // The lines that bilinear samples touch, counted on a grid of samples `step` texels apart over a map that repeats.

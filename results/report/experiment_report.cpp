@@ -118,8 +118,9 @@ std::string shortfall_of(const ClaimOutcome& claim) {
 }
 
 std::string shortfall_of(const ThresholdOutcome& threshold) {
-  return fmt::format("at most {}, measured {}", figure_text(threshold.limit),
-                     threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem);
+  return fmt::format(
+      "at most {}, {}", figure_text(threshold.limit),
+      threshold.problem.empty() ? "measured " + figure_text(threshold.measured) : "not measured: " + threshold.problem);
 }
 
 std::vector<std::string> ExperimentReport::shortfalls() const { return shortfalls_of(check_outcomes(*this)); }

@@ -18,7 +18,7 @@ TEST(ExperimentSection, WhatFellShortIsListedWithItsFigures) {
             "claim undecided: undecided, expected not reproduced: precompute(toksvig) < 300 (the bake came from the "
             "cache)");
   EXPECT_EQ(lines[1], "threshold error(direct): at most 0.02000, measured 0.02100");
-  EXPECT_EQ(lines[2], "threshold flicker(direct): at most 0.02000, measured no figure");
+  EXPECT_EQ(lines[2], "threshold flicker(direct): at most 0.02000, not measured: no figure");
 }
 
 TEST(ExperimentSection, MeasuredIsNextToPublished) {

@@ -3,12 +3,14 @@
 import csv
 import json
 import os
+import pathlib
 import subprocess
 import unittest
 
-from whole_runs import PROGRAM, WholeRunTest
+from whole_runs import PROGRAM, SOURCE, WholeRunTest
 
 SCENE = ["ribbed_plane", "--size", "32x32", "--distance", "2"]
+PROGRAM_BYTES = pathlib.Path(PROGRAM).read_bytes()
 METHODS = ["direct", "toksvig", "lean", "tan_gmm:n=1", "tan_gmm:n=2", "tan_gmm:n=4"]
 
 
@@ -65,6 +67,12 @@ class Costs(WholeRunTest):
         for less, more in steps:
             self.assertLess(1.2 * alu[less], alu[more])
 
+    def test_every_light_counts_where_its_loop_contains_others(self):
+        report = self.report("lights", "--methods", "ndf_atlas", "--gpu", "RX 480,Steam Deck", "--footprint", "trilinear",
+                             scene=["carved_disk", "--size", "32x32"])
+        for gpu in report["methods"][0]["gpus"]:
+            self.assertEqual(gpu["reads_by_format"]["32-bit bilinear"], 8)  # two tables for each of four lights
+
     def test_more_probes_cost_more(self):
         figures = [self.report(name, "--methods", "lean", "--gpu", "Steam Deck", "--footprint", name)["methods"][0]
                    for name in ("box:1", "box:2", "box:4")]
@@ -101,30 +109,86 @@ class Costs(WholeRunTest):
         totals = [method["pixels"] * method["gpus"][0]["passes_ns"] for method in (small, large)]
         self.assertAlmostEqual(totals[0] / totals[1], 1, places=9)
 
-    def check(self, name, limits):
-        """`check` of an experiment over three methods on one GPU, with these upper bounds."""
-        bounds = "".join(f'"gpu_cost({method})" = {limit!r}\n' for method, limit in limits.items())
-        experiment = self.folder / f"{name}.toml"
+    def check(self, name, experiment, program=PROGRAM, command=("check",), **variables):
+        """The finished process of an experiment, and the lines of what failed."""
+        arguments = [program, *command, experiment, "-q", "-o", self.folder / name]
+        done = subprocess.run(list(map(str, arguments)), capture_output=True, text=True, check=False,
+                              env=os.environ | variables, timeout=300)
+        return done, [line for line in done.stdout.splitlines() if line.startswith("failed: ")]
+
+    def three_methods(self):
+        """An experiment over three methods on one GPU, with bounds 0.01% above their costs, and those costs."""
+        report = self.report("bounds", "--methods", "direct,toksvig,lean", "--gpu", "Steam Deck")
+        costs = {method["method"]: method["gpus"][0]["cost_ns"] for method in report["methods"]}
+        bounds = "".join(f'"gpu_cost({method})" = {1.0001 * ns!r}\n' for method, ns in costs.items())
+        experiment = self.folder / "three.toml"
         experiment.write_text('[experiment]\ntitle = "t"\nscene = "ribbed_plane"\nmethods = ["direct", "toksvig", "lean"]\n'
                               'size = [32, 32]\ngpu = ["Steam Deck"]\nrepeats = 1\n[zoom]\ndistances = [2]\n'
                               f'[reference]\nspp = 4\nsupersampling = [1]\n[threshold]\n{bounds}')
-        command = [PROGRAM, "check", experiment, "-q", "-o", self.folder / name]
-        return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=300)
+        return experiment, list(costs.values())
 
-    def test_a_threshold_notices_one_more_texture_read(self):
-        report = self.report("bounds", "--methods", "direct,toksvig,lean", "--gpu", "Steam Deck")
-        direct, toksvig, lean = (method["gpus"][0]["cost_ns"] for method in report["methods"])
-        done = self.check("passes", {"direct": 1.0001 * direct, "toksvig": 1.0001 * toksvig, "lean": 1.0001 * lean})
+    def costs_in(self, name):
+        results = json.loads((self.folder / name / "results.json").read_text())
+        return [record["gpu_costs"][0]["cost_ns"] for record in results["records"]]
+
+    def test_a_check_reports_the_estimates(self):
+        experiment, costs = self.three_methods()
+        done, _ = self.check("passes", experiment)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        # lean reads one map more than toksvig: the bound of toksvig, 0.01% above its cost, refuses that.
-        done = self.check("falls", {"lean": 1.0001 * toksvig})
-        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
-        self.assertIn("gpu_cost(lean)", done.stdout + done.stderr)
-        results = json.loads((self.folder / "passes" / "results.json").read_text())
-        self.assertEqual([record["gpu_costs"][0]["cost_ns"] for record in results["records"]], [direct, toksvig, lean])
-        page = (self.folder / "passes" / "index.html").read_text()
-        self.assertIn("Estimated cost on GPUs", page)
+        self.assertEqual(self.costs_in("passes"), costs)
+        self.assertIn("Estimated cost on GPUs", (self.folder / "passes" / "index.html").read_text())
         self.assertIn("## Estimated cost on GPUs", (self.folder / "passes" / "table.md").read_text())
+
+    def test_a_part_of_a_run_estimates_too(self):
+        experiment, costs = self.three_methods()
+        for part in "12":
+            done, _ = self.check(f"part{part}", experiment, command=("run", "--shard", f"{part}/2"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        parts = [str(self.folder / f"part{part}") for part in "12"]
+        subprocess.run([PROGRAM, "merge", *parts, "-q", "-o", str(self.folder / "merged")],
+                       capture_output=True, check=True, timeout=300)
+        self.assertEqual(self.costs_in("merged"), costs)
+
+    def program_with(self, shader, old, new):
+        """A copy of the program in which the text of a shader has `new` for `old`, in place of its first comment."""
+        text = (SOURCE / shader).read_bytes()
+        changed = text.partition(b"//?")[2].replace(old, new)
+        self.assertIn(new, changed)
+        self.assertEqual(PROGRAM_BYTES.count(text), 1)
+        path = self.folder / "program"
+        path.write_bytes(PROGRAM_BYTES.replace(text, (b"//?" + changed).ljust(len(text))))
+        path.chmod(0o755)
+        return path
+
+    def test_the_quick_check_notices_one_more_texture_fetch(self):
+        # The value that it reads changes nothing: no length of a mean normal exceeds 1.
+        line = b"  vec4 mean = meanNormal(f);\n"
+        more = line + b"  f.normal.uv += 0.25;\n  mean.w = min(mean.w, 2.0 + fetch(mean_normal, f.normal).x);\n"
+        done, failed = self.check("more", "quick", self.program_with("methods/toksvig/toksvig.glsl", line, more))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(failed), 1, failed)
+        self.assertIn("threshold gpu_cost(toksvig): at most 0.37494, measured ", failed[0])
+
+    def test_without_a_driver_a_check_judges_everything_else(self):
+        icds = "/usr/share/vulkan/icd.d"
+        other = next(f"{icds}/{name}" for name in os.listdir(icds) if name.startswith("lvp_icd"))
+        done, failed = self.check("lacks", "quick", VK_DRIVER_FILES=other)
+        self.assert_fails(done, 1, "quick: 5 claims and thresholds failed", "not measured: ", "mesa-vulkan-drivers")
+        self.assertEqual(len(failed), 5, failed)
+        for line in failed:
+            self.assertIn("threshold gpu_cost(", line)
+        results = json.loads((self.folder / "lacks" / "results.json").read_text())
+        measured = [outcome["measured"] for outcome in results["experiment"]["thresholds"]]
+        self.assertEqual(sum(value is None for value in measured), 5)
+        self.assertTrue(all(record["error"] for record in results["records"]))
+
+    def test_a_run_without_a_driver_fails_and_is_completed_with_one(self):
+        experiment, costs = self.three_methods()
+        done, _ = self.check("alone", experiment, command=("run",), VK_DRIVER_FILES="/nonexistent/radeon_icd.json")
+        self.assert_fails(done, 1, "3 of 3 rows failed", "/nonexistent/radeon_icd.json does not exist")
+        done, _ = self.check("alone", experiment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.costs_in("alone"), costs)
 
     def test_recommend_limits_the_estimated_cost(self):
         costs = {method["method"]: method["gpus"][0]["cost_ns"] for method in

@@ -316,9 +316,21 @@ class EngineConstants(InFolder):
                          list(self.script.SURFACES))
 
 
-class MeasureGpu(unittest.TestCase):
+class MeasureGpu(InFolder):
     def setUp(self):
+        super().setUp()
         self.script = module(SOURCE / "scripts/measure_gpu")
+
+    def test_only_bounds_on_estimates_may_fail(self):
+        program = self.folder / "footprint"
+        for kind, code, passes in (("gpu_cost", 1, True), ("error", 1, False), ("gpu_cost", 3, False)):
+            program.write_text(f"#!/bin/sh\necho 'failed: threshold {kind}(lean): at most 1'\nexit {code}\n")
+            program.chmod(0o755)
+            if passes:
+                self.script.check_quick(program)
+                continue
+            with self.assertRaisesRegex(self.script.Missing, f"exit code {code}.*\n.*threshold {kind}"):
+                self.script.check_quick(program)
 
     def test_the_first_hardware_backend_is_taken(self):
         lines = ["  egl                    llvmpipe (LLVM 15), OpenGL 4.5 (Core Profile) Mesa 22.3.6, software",

@@ -3,6 +3,7 @@
 It reads experiments and results.json, runs the program, formats numbers, tables and text, and has the Pareto front and
 the noise floors of claims.
 """
+import collections
 import json
 import math
 import os
@@ -19,6 +20,10 @@ PROSE_WIDTH = 120
 # Which noise floor of a record belongs to the errors that a function of claims compares.
 FLOOR_OF = {"error": "noise_floor", "shading_error": "shading_floor", "edge_error": "noise_floor",
             "representation": "noise_floor", "filtering": "noise_floor"}
+OURS = ("cells", "ndf_atlas")
+UNPUBLISHED = (*OURS, "tan_gmm:covariance=full")  # no paper has this variant of tan_gmm either
+PLAIN = "plain supersampling"
+SUPERSAMPLING = (1, 2, 4, 8, 16, 32, 64)
 FLOOR_SHARE = 3.0  # a reference has converged for a claim if its floor is under the difference over this
 
 
@@ -113,6 +118,43 @@ def wrapped(text):
         lines += (textwrap.wrap(line, PROSE_WIDTH, subsequent_indent=indent, break_on_hyphens=False) if is_prose
                   else [line])
     return "\n".join(lines)
+
+
+# ---- records of a study over footprint filters
+
+def grouped(pairs):
+    """{key: its values, in order}."""
+    groups = collections.defaultdict(list)
+    for key, value in pairs:
+        groups[key].append(value)
+    return groups
+
+
+def code(names):
+    return [f"`{name}`" for name in names]
+
+
+def records_of(by_filter):
+    """((filter, method), record) of all results of a part."""
+    return [((name, r["method"]), r) for name, results in by_filter.items() for r in results["records"]]
+
+
+def costs_of(by_filter):
+    """Frames of `direct`, by filter and method: (geometric mean of the medians over distances, least, most)."""
+    ratios_to_direct = grouped((key, r["time"]["ratio_to_direct"]) for key, r in records_of(by_filter))
+    costs = {key: (geometric_mean([r["median"] for r in over]), min(r["low"] for r in over),
+                   max(r["high"] for r in over)) for key, over in ratios_to_direct.items()}
+    return costs | {(name, f"{PLAIN} {spp}"): (float(spp),) * 3 for name in by_filter for spp in SUPERSAMPLING}
+
+
+def gpu_costs_of(by_filter):
+    """{GPU: costs as costs_of has them, by estimated cost over that of `direct`}."""
+    estimates = grouped(((cost["gpu"], key), cost["ratio_to_direct"]) for key, r in records_of(by_filter)
+                        for cost in r.get("gpu_costs", []) if cost["ratio_to_direct"])
+    plain = costs_of({name: {"records": []} for name in by_filter})
+    return {gpu: plain | {key: (geometric_mean(over), min(over), max(over))
+                          for (own, key), over in estimates.items() if own == gpu}
+            for gpu in dict.fromkeys(gpu for gpu, _ in estimates)}
 
 
 # ---- Pareto fronts

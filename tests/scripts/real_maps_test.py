@@ -1,4 +1,4 @@
-"""scripts/real_maps on a small tree: what it takes, leaves out and writes; and no constant is chosen on held-out maps."""
+"""scripts/real_maps and real_maps_study on small trees, and no constant is chosen on held-out maps."""
 import hashlib
 import json
 import os
@@ -31,6 +31,12 @@ def held_out_uses(files, recorded):
     """The files that name a held-out map."""
     names = [pathlib.Path(entry["file"]).name for entry in recorded["maps"] if entry["part"] == "held_out"]
     return [str(file) for file in files if any(name in file.read_text(encoding="utf-8", errors="replace") for name in names)]
+
+
+def development_name(surface):
+    """A file name for a normal map that is for development by its hash."""
+    names = (f"{surface}_{i}_Normal" for i in range(100))
+    return next(name for name in names if int(hashlib.sha256(f"{name}.png".encode()).hexdigest(), 16) % 3)
 
 
 class RealMaps(unittest.TestCase):
@@ -72,14 +78,41 @@ class RealMaps(unittest.TestCase):
         for entry, name in ((bumps, "bumps_Normal.png"), (grooves, "Grooves_normal.png")):
             remainder = int.from_bytes(hashlib.sha256(name.encode()).digest(), "big") % 3
             self.assertEqual(entry["part"], "development" if remainder else "held_out")
-        self.assertEqual([len(bumps["scenes"]), len(grooves["scenes"])], [3, 1])
-        for scene in bumps["scenes"] + grooves["scenes"]:
+        self.assertEqual([{form: len(scenes) for form, scenes in entry["scenes"].items()} for entry in (bumps, grooves)],
+                         [{"main": 1, "alpha": 2, "sky": 1}, {"main": 1, "sky": 1}])
+        scenes = [scene for entry in (bumps, grooves) for found in entry["scenes"].values() for scene in found]
+        for scene in scenes:
             self.assertEqual(subprocess.run([PROGRAM, "explain", self.out / scene / "scene.toml", "--quiet"],
                                             capture_output=True, check=False).returncode, 0, scene)
-        stats = subprocess.run(["oiiotool", "--stats", self.out / grooves["scenes"][0] / "roughness.png"], check=True,
+        stats = subprocess.run(["oiiotool", "--stats", self.out / grooves["scenes"]["main"][0] / "roughness.png"], check=True,
                                capture_output=True, text=True).stdout
         average = float(re.search(r"Stats Avg: ([\d.]+)", stats)[1])
         self.assertAlmostEqual(average / 255, 1025 ** -0.25, delta=1 / 255)  # gloss 1: exponent 2048
+
+    def study(self, *words):
+        return subprocess.run([SOURCE / "scripts/real_maps_study", self.out, self.folder / "results", *words],
+                              capture_output=True, text=True, check=False, env=os.environ)
+
+    def test_the_study_compares_methods_over_maps(self):
+        for surface in ("bumps", "v_grooves"):
+            self.surface(surface, f"{development_name(surface)}.png")
+        self.assertEqual(self.collect().returncode, 0)
+        missing = self.study()
+        self.assertEqual(missing.returncode, 1)
+        self.assertIn("has no results", missing.stderr)
+        done = self.study("--run", "--quick", "--parts", "development_main")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = {row[1].strip("` *"): row[2:-1] for row in (re.split(r" ?\| ?", line) for line in done.stdout.splitlines())
+                if row[0] == "" and len(row) == 5}
+        self.assertEqual(rows["method"], ["bytes", "`trilinear`, 2 maps"])
+        self.assertEqual(rows["direct"][1], "1 (1 to 1)")
+        errors = {method: float(cells[1].split()[0]) for method, cells in rows.items() if cells[1].endswith(")")}
+        self.assertEqual(len(errors), 42)
+        self.assertLess(errors["tan_gmm:n=8"], errors["naive_mip"])
+        self.assertRegex(done.stdout, r"`tan_gmm:n=4` has [\d.]+ \([\d.]+ to [\d.]+\)\s+of\s+the\s+error\s+of\s+`lean`")
+        self.assertIn("## Held-out maps\n\nNot run.", done.stdout)
+        again = self.study()
+        self.assertEqual(again.stdout, done.stdout, "bootstraps are seeded")
 
     def test_a_tree_without_maps_is_an_error(self):
         done = self.collect()

@@ -28,7 +28,7 @@ ErrorCauses causes_of(const ReferenceView& target, const Image& picture, float e
   return causes;
 }
 
-// Over interior pixels, where there are some: supersampling mends edges, and no method here does.
+// Over interior pixels, where there are some: supersampling corrects edges, and no method here does.
 std::optional<EquivalentSamples> equivalent(const ReferenceView& target, const RecordError& error) {
   const std::optional<double>& shading = error.causes.shading;
   const auto curve = supersampling_curve(

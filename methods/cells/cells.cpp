@@ -28,7 +28,7 @@ std::vector<OptionSpec> option_table() {
                       "a part, or by one mixture over the whole map."),
           word_option("storage", {"fp32", "fp16"}, "How moments are stored: 32-bit or 16-bit floats."),
           word_option("covariance", {"axes", "full"},
-                      "What a texel keeps of a part's covariance: along the part's own axes, or whole."),
+                      "What a texel stores of a part's covariance: along the part's own axes, or whole."),
           word_option("coordinates", {"stereographic", "slopes"},
                       "What moments are of: the stereographic projection of normals, or their slopes, as LEAN has "
                       "them."),

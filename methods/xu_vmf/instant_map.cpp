@@ -149,7 +149,7 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
                                 pass("xu_vmf_join.glsl", guards_, true)));
 }
 
-std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
+std::optional<BuildInputs> InstantMap::valid_until_change_of() const {
   if (settings_.always_built) return {};
   const bool camera = join_surface_.has_value();
   return BuildInputs{.camera = camera, .geometry = camera, .materials = true, .lights = false};

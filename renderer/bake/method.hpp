@@ -63,7 +63,7 @@ class FrameBuild {
   [[nodiscard]] virtual bool looks_from_view() const { return true; }
 
   /// The inputs whose change invalidates a build. None: it runs for every frame.
-  [[nodiscard]] virtual std::optional<BuildInputs> kept_until_change_of() const { return {}; }
+  [[nodiscard]] virtual std::optional<BuildInputs> valid_until_change_of() const { return {}; }
 };
 
 struct ShaderVariant;

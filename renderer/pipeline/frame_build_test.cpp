@@ -29,7 +29,7 @@ class Fill final : public FrameBuild {
         inputs_(inputs),
         pass_("fill", frame_build_shader(variant, {"fill.glsl", fill_pass}, options).text()) {}
 
-  [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override { return inputs_; }
+  [[nodiscard]] std::optional<BuildInputs> valid_until_change_of() const override { return inputs_; }
 
   void run(const FrameBuildJob& job) const override {
     EXPECT_GT(job.batch.index_count, 0);
@@ -97,7 +97,7 @@ TEST(FrameBuild, RunsOncePerFrameForAnyTiles) {
       bake(method, {.text = "builder", .name = "builder", .options = {}}, scene, effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
   EXPECT_TRUE(gpu.has_frame_build());
-  EXPECT_FALSE(gpu.keeps_builds());
+  EXPECT_FALSE(gpu.reuses_build());
   EXPECT_EQ(method.runs, 0);
   const View view{.size = {8, 8}, .camera = scene.camera};
   const FrameRenderer frames(shared_context().info(), gpu_scene, gpu, view.size, {}, 4);  // 4 tiles
@@ -145,7 +145,7 @@ std::vector<int> runs_over(const std::vector<Scene>& frames, const BuildInputs& 
   const BakedMethod baked =
       bake(method, {.text = "builder", .name = "builder", .options = {}}, frames.front(), effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
-  EXPECT_TRUE(gpu.keeps_builds());
+  EXPECT_TRUE(gpu.reuses_build());
   std::vector<int> runs;
   for (const Scene& frame : frames) {
     gpu_scene.update(frame);

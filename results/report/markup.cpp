@@ -116,7 +116,7 @@ std::string fill_template(std::string_view page, const std::map<std::string, std
     if (close == std::string_view::npos) return filled.append(page);
     const std::string name(page.substr(open + 2, close - open - 2));
     const auto value = values.find(name);
-    if (value == values.end()) throw std::logic_error("the page's template asks for `" + name + "`");
+    if (value == values.end()) throw std::logic_error("the page's template names `" + name + "`");
     filled.append(page.substr(0, open)).append(value->second);
     page.remove_prefix(close + 2);
   }

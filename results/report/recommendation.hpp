@@ -33,7 +33,7 @@ struct Limits {
 
 /// The choice among candidates. Indices are into the candidates.
 struct Choice {
-  std::optional<std::size_t> chosen;  ///< none: none keeps the limit, or nothing was measured
+  std::optional<std::size_t> chosen;  ///< none: none passes the limit, or nothing was measured
   std::vector<std::size_t> tied;      ///< candidates that are as good: they differ within noise
   std::optional<std::size_t> better;  ///< the cheapest that is closer to the reference than the chosen one beyond noise
   std::optional<std::size_t> nearest;  ///< where none is chosen: the one that comes closest to the limit

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-#include <utility>
-
 #include "renderer/core/files.hpp"
 #include "results/report/csv_field.hpp"
 #include "results/report/experiment_report.hpp"
@@ -17,20 +14,6 @@
 
 namespace footprint {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr const char* matrix_schema = "footprint-matrix/1";
-
-Json member_json(const MatrixMember& member) {
-  return {{"folder", member.folder},
-          {"coordinates", to_json_value(member.results.coordinates)},
-          {"scene", member.results.scene.name},
-          {"footprint", member.results.footprint},
-          {"spp", member.results.reference.spp},
-          {"seed", member.results.reference.seed},
-          {"records", member.results.records.size()}};
-}
 
 // With paths from the matrix' folder.
 Record seen_from_above(Record record, const std::string& folder) {
@@ -68,17 +51,7 @@ std::string records_table(const MatrixResults& matrix) {
 
 }  // namespace
 
-std::string matrix_json(const MatrixResults& matrix) {
-  Json members = Json::array();
-  for (const MatrixMember& member : matrix.members) members.push_back(member_json(member));
-  const Json document{{"schema", matrix_schema},
-                      {"tool", to_json_value(matrix.members.front().results.tool)},
-                      {"backend", to_json_value(matrix.members.front().results.backend)},
-                      {"experiment", to_json_value(matrix.report)},
-                      {"left_out", matrix.left_out},
-                      {"members", std::move(members)}};
-  return json_text(document, 2) + "\n";
-}
+std::string matrix_json(const MatrixResults& matrix) { return json_text(to_json_value(matrix), 2) + "\n"; }
 
 std::string matrix_csv(const MatrixResults& matrix) {
   std::string csv = fmt::format("member,footprint,seed,{}{}", csv_header(), csv_line_end);

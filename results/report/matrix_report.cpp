@@ -49,10 +49,7 @@ std::string records_table(const MatrixResults& matrix) {
   return markdown_table(columns, rows);
 }
 
-}  // namespace
-
-std::string matrix_json(const MatrixResults& matrix) { return json_text(to_json_value(matrix), 2) + "\n"; }
-
+// The lines of the members' results.csv, each after its member's name, footprint filter and seed.
 std::string matrix_csv(const MatrixResults& matrix) {
   std::string csv = fmt::format("member,footprint,seed,{}{}", csv_header(), csv_line_end);
   for (const auto& [folder, results] : matrix.members) {
@@ -62,6 +59,8 @@ std::string matrix_csv(const MatrixResults& matrix) {
   }
   return csv;
 }
+
+}  // namespace
 
 std::string matrix_table(const MatrixResults& matrix) {
   std::string text = fmt::format("# {}\n", markdown_escaped(matrix.report.title)) + experiment_markdown(matrix.report);
@@ -74,7 +73,7 @@ std::string matrix_table(const MatrixResults& matrix) {
 }
 
 void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "matrix.json", matrix_json(matrix));
+  write_file_atomically(folder / "matrix.json", json_text(to_json_value(matrix), 2) + "\n");
   write_file_atomically(folder / "results.csv", matrix_csv(matrix));
   write_file_atomically(folder / "table.md", matrix_table(matrix));
   write_file_atomically(folder / "index.html", matrix_page(matrix));

@@ -41,6 +41,17 @@ std::size_t least(const Candidates& candidates, const Indices& among, Value valu
   return *std::ranges::min_element(among, {}, [&](std::size_t i) { return value(candidates[i]); });
 }
 
+// Never where noise is unknown.
+bool is_closer(const Candidate& a, const Candidate& b) {
+  return a.noise && b.noise && b.error - a.error > sure_standard_errors * std::hypot(*a.noise, *b.noise);
+}
+
+// Whether the median of one is within the spread of the other.
+bool cost_as_much(const Candidate& a, const Candidate& b) {
+  const auto within = [](double value, const TimeRatio& range) { return value >= range.low && value <= range.high; };
+  return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
+}
+
 // Those that noise does not part from one of them, by the limit's own measure first.
 Indices alike(const Candidates& candidates, const Indices& among, std::size_t best, bool by_cost) {
   Indices found;
@@ -121,15 +132,6 @@ std::string what_better_costs(const MaterialAdvice& advice) {
 }  // namespace
 
 bool is_plain(const Candidate& candidate) { return candidate.method == "direct" && candidate.footprint == "trilinear"; }
-
-bool is_closer(const Candidate& a, const Candidate& b) {
-  return a.noise && b.noise && b.error - a.error > sure_standard_errors * std::hypot(*a.noise, *b.noise);
-}
-
-bool cost_as_much(const Candidate& a, const Candidate& b) {
-  const auto within = [](double value, const TimeRatio& range) { return value >= range.low && value <= range.high; };
-  return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
-}
 
 Choice choose(const std::vector<Candidate>& candidates, const Limits& limits) {
   Choice choice;

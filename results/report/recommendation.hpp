@@ -40,13 +40,6 @@ struct Choice {
   bool filter_nothing = false;  ///< the chosen one is plain `direct`, and no candidate gains more than noise over it
 };
 
-/// Whether a's error is less than b's by more than three standard errors of the difference. Never where noise is
-/// unknown.
-[[nodiscard]] bool is_closer(const Candidate& a, const Candidate& b);
-
-/// Whether the spreads of their costs overlap: each one's median is within the other's range, or the ranges touch it.
-[[nodiscard]] bool cost_as_much(const Candidate& a, const Candidate& b);
-
 /// `direct` under the trilinear filter: no filtering at all.
 [[nodiscard]] bool is_plain(const Candidate& candidate);
 

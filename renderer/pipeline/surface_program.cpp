@@ -26,14 +26,14 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   shared.set(static_cast<std::size_t>(Effect::vertex_color));
   shared.set(static_cast<std::size_t>(Effect::clear_coat));
   shared.set(static_cast<std::size_t>(Effect::cast_shadow));
-  return scene.effects() & (method.info().honours | shared);
+  return scene.effects() & (method.info.honours | shared);
 }
 
 // A method whose samples are many, and whose module can, integrates itself; drawn for one sample per pixel, directions
 // would be all noise. Directional lights serve every module.
 EnvironmentUse environment_of(const Method& method, const ProgramSettings& settings) {
   if (settings.environment == EnvironmentUse::dense) return EnvironmentUse::dense;
-  const bool itself = method.info().draws_directions && settings.sampling != Sampling::frame;
+  const bool itself = method.info.draws_directions && settings.sampling != Sampling::frame;
   return itself ? settings.environment : EnvironmentUse::prefiltered;
 }
 
@@ -48,10 +48,10 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .horizon_open = scene.horizon() == Horizon::open,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
-          .screen_derivatives = baked.method->info().screen_derivatives && settings.sampling == Sampling::frame,
-          .finest_coat = baked.method->info().reads_finest_level && settings.sampling == Sampling::frame,
+          .screen_derivatives = baked.method->info.screen_derivatives && settings.sampling == Sampling::frame,
+          .finest_coat = baked.method->info.reads_finest_level && settings.sampling == Sampling::frame,
           .environment = environment_of(*baked.method, settings),
-          .sums_environment = baked.method->info().sums_environment,
+          .sums_environment = baked.method->info.sums_environment,
           .environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0,
           .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,
@@ -259,7 +259,7 @@ ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, 
   TextureUnits units = forward_units(variant, baked.materials.front());
   units.require_room(scene.context(), baked.spec.text);
   ForwardShaders shaders =
-      forward_shaders(variant, units, baked.method->shader(), baked.options, baked.materials.front());
+      forward_shaders(variant, units, baked.method->shader, baked.options, baked.materials.front());
   return {.variant = variant, .units = std::move(units), .shaders = std::move(shaders)};
 }
 

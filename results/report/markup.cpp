@@ -161,11 +161,9 @@ std::string script_escaped(std::string_view json) {
   return escaped;
 }
 
-namespace embedded {
 extern const EmbeddedTexts page_texts;
-}
 
-std::string_view page_text(std::string_view file) { return find_text(embedded::page_texts, file)->text; }
+std::string_view page_text(std::string_view file) { return find_text(page_texts, file)->text; }
 
 std::string fill_page(const PageShell& shell, std::map<std::string, std::string_view> values) {
   const std::string title = html_escaped(shell.title);

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "renderer/core/error.hpp"
@@ -23,17 +21,16 @@ struct OwnKeys {
   std::vector<std::string> keys;
 };
 
-const std::vector<OwnKeys>& own_keys() {
-  static const std::vector<OwnKeys> keys{{EnvironmentKind::file, {"file", "files", "package"}},
-                                         {EnvironmentKind::constant, {"color"}},
-                                         {EnvironmentKind::sky, {"sun_direction"}}};
-  return keys;
-}
+const std::vector<OwnKeys> own_keys{{EnvironmentKind::file, {"file", "files", "package"}},
+                                    {EnvironmentKind::constant, {"color"}},
+                                    {EnvironmentKind::sky, {"sun_direction"}}};
+const std::vector<std::string> environment_keys{"kind",    "intensity", "rotation_degrees", "file", "files",
+                                                "package", "color",     "sun_direction"};
 
 EnvironmentKind read_kind(const TomlTable& table) {
   const auto choice = table.choice("kind", {"file", "constant", "sky"});
   const EnvironmentKind kind = choice ? static_cast<EnvironmentKind>(*choice) : EnvironmentKind::file;
-  for (const OwnKeys& own : own_keys()) {
+  for (const OwnKeys& own : own_keys) {
     for (const std::string& key : own.keys) {
       if (own.kind != kind && table.has(key))
         throw table.error_at(key, "does not belong to an environment of this kind", "leave it out, or change `kind`");
@@ -159,15 +156,6 @@ Camera read_placed_camera(const TomlTable& table) {
   return camera;
 }
 
-const std::vector<std::string>& environment_keys() {
-  static const std::vector<std::string> keys = [] {
-    std::vector<std::string> all{"kind", "intensity", "rotation_degrees"};
-    for (const OwnKeys& own : own_keys()) all.insert(all.end(), own.keys.begin(), own.keys.end());
-    return all;
-  }();
-  return keys;
-}
-
 EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder) {
   EnvironmentSettings settings;
   settings.kind = read_kind(table);
@@ -188,7 +176,7 @@ void read_lights(const TomlTable& root, const std::filesystem::path& folder, Sce
     settings.lights.push_back(read_light(light));
   }
   if (const auto lights = root.table("lights", {"keep"})) assign(settings.keep_model_lights, lights->boolean("keep"));
-  if (const auto environment = root.table("environment", environment_keys())) {
+  if (const auto environment = root.table("environment", environment_keys)) {
     settings.environment = read_environment(*environment, folder);
   }
   if (const auto shadows = root.table("shadows", {"cast", "resolution", "sides"})) {

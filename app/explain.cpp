@@ -187,7 +187,7 @@ Explanation explain(const ExplainArguments& arguments, const Progress& progress)
   out.effects = stage.decisions();
   out.maps = map_bytes(stage.scene());
   out.method = run.methods.front().text;
-  out.left_out = effect_names(stage.effects() & ~method.baked().method->info().honours);
+  out.left_out = effect_names(stage.effects() & ~method.baked().method->info.honours);
   out.draws = stage.gpu_scene().batches().size();
   out.shared_bytes = stage.gpu_scene().shared_bytes();
   out.method_bytes = method.baked().bytes;

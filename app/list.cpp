@@ -161,7 +161,7 @@ std::vector<std::string> names_of(std::string_view kind) {
   if (kind == "experiments") return list_experiments(experiments_folder());
   std::vector<std::string> names;
   if (kind == "methods") {
-    for (const Method* method : all_methods()) names.push_back(method->info().name);
+    for (const Method* method : all_methods()) names.push_back(method->info.name);
   } else {
     for (const Surface& surface : all_surfaces()) names.push_back(surface.name);
   }
@@ -178,7 +178,7 @@ std::string kind_text(const std::string& kind) {
   if (kind == "backends") return backends_text();
   std::string text = kind + "\n";
   if (kind == "methods") {
-    for (const Method* method : all_methods()) text += method_text(method->info());
+    for (const Method* method : all_methods()) text += method_text(method->info);
   } else if (kind == "surfaces") {
     for (const Surface& surface : all_surfaces()) text += surface_text(surface);
   } else {
@@ -191,7 +191,7 @@ Json kind_json(const std::string& kind) {
   if (kind == "scenes" || kind == "experiments") return names_of(kind);
   Json json = Json::array();
   if (kind == "methods") {
-    for (const Method* method : all_methods()) json.push_back(method_json(method->info()));
+    for (const Method* method : all_methods()) json.push_back(method_json(method->info));
   } else if (kind == "surfaces") {
     for (const Surface& surface : all_surfaces()) json.push_back(surface_json(surface));
   } else {

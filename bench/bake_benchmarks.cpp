@@ -1,4 +1,4 @@
-// Benchmarks of editing small-scale geometry, of building mip chains (also off powers of two) and of fitting mixtures.
+// Benchmarks of editing small-scale geometry and of fitting mixtures.
 #include "bench/benchmarks.hpp"
 
 #include <benchmark/benchmark.h>
@@ -9,7 +9,6 @@
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/tan_gmm/mixture_chain.hpp"
 #include "renderer/core/progress.hpp"
-#include "renderer/image/mipmap.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
 #include "scenes/surfaces/registry.hpp"
 
@@ -46,17 +45,6 @@ void register_edit(const std::string& name, Patch patch, std::size_t facets) {
       ->Unit(benchmark::kMillisecond);
 }
 
-void build_chain(benchmark::State& state) {
-  const Image finest(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 4, 0.5F);
-  for ([[maybe_unused]] auto _ : state) {
-    state.PauseTiming();
-    Image copy = finest;
-    state.ResumeTiming();
-    benchmark::DoNotOptimize(mip_chain(std::move(copy)));
-  }
-  state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(1));
-}
-
 void fit_all_levels(benchmark::State& state, const Surface& surface, bool align) {
   SurfaceSettings map = surface_settings(surface, {});
   map.resolution = static_cast<int>(state.range(0));
@@ -81,16 +69,6 @@ void register_iwasaki_benchmarks() {
   for (const char* steps : {"12", "24", "96"}) {
     register_edit(std::string("noise/steps:") + steps, make_patch(noise, {{"steps", steps}}), paper_facets);
   }
-}
-
-void register_mip_benchmarks() {
-  benchmark::RegisterBenchmark("mip_chain/rgba", build_chain)
-      ->Args({1024, 1024})
-      ->Args({4096, 4096})
-      ->Args({1000, 777})
-      ->UseRealTime()
-      ->MeasureProcessCPUTime()
-      ->Unit(benchmark::kMillisecond);
 }
 
 void register_tan_gmm_benchmarks() {

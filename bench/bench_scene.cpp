@@ -21,17 +21,15 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts bench_glsl;
-}
 
 namespace bench {
 
 BareFrame::BareFrame(const Scene& scene, const GpuScene& gpu_scene, const glm::ivec2& size)
     : gpu_scene_(&gpu_scene),
       sampler_(gl::trilinear_sampler(GL_REPEAT, GL_REPEAT)),
-      program_("bare", find_text(embedded::bench_glsl, "bare_vertex.glsl")->text,
-               find_text(embedded::bench_glsl, "bare_fragment.glsl")->text),
+      program_("bare", find_text(bench_glsl, "bare_vertex.glsl")->text,
+               find_text(bench_glsl, "bare_fragment.glsl")->text),
       target_(size.x, size.y, std::array<GLenum, 1>{GL_RGBA32F}, true) {
   for (const GpuBatch& batch : gpu_scene.batches()) {
     const Material& material = scene.materials.at(batch.material);
@@ -94,7 +92,7 @@ RunSettings bench_settings(const std::string& methods) {
   settings.cache = default_cache_folder();
   if (!methods.empty()) settings.methods = parse_methods(methods);
   for (const Method* method : all_methods()) {
-    const MethodInfo& info = method->info();
+    const MethodInfo& info = method->info;
     if (methods.empty() && !info.slow_precompute)
       settings.methods.push_back({.text = info.name, .name = info.name, .options = {}});
   }

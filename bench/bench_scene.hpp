@@ -53,7 +53,6 @@ class BenchScene {
   BenchScene(Scene scene, const RunSettings& settings);
 
   [[nodiscard]] const Stage& stage() const { return stage_; }
-  [[nodiscard]] const View& view() const { return view_; }
 
   void draw_bare() const { bare_.draw(view_); }
   void draw(const StagedMethod& method) const { method.frames().draw(view_); }

@@ -1,4 +1,5 @@
-// Benchmarks: of bakes, frames and start-up for Google Benchmark; tables of bakes and of footprint sizes, with limits.
+// Benchmarks: of edits, mixtures and the bare frame for Google Benchmark; tables of bakes and of footprint sizes, with
+// limits.
 #pragma once
 
 #include <string>
@@ -11,19 +12,12 @@ namespace footprint::bench {
 /// discretisation, then more facets and normals.
 void register_iwasaki_benchmarks();
 
-/// Builds mip chains of RGBA, 32-bit floats; items are texels of the finest level.
-void register_mip_benchmarks();
-
 /// Fits Tan's mixtures to all levels of a map, four Gaussians, neighbours aligned or not; items are texels of the
 /// finest level.
 void register_tan_gmm_benchmarks();
 
-/// Registers them with Google Benchmark; `scene` must outlive the run.
-void register_frame_benchmarks(const BenchScene& scene);
-
-/// Registers what happens before the first frame: a context, loading the scene, and all of it up to a first frame of
-/// `direct`. `scene`'s context is made current again after each.
-void register_start_up_benchmarks(const BenchScene& scene);
+/// Draws the frame of the bare shader. `scene` must outlive the run.
+void register_frame_benchmark(const BenchScene& scene);
 
 /// The most that every bake may take; 0: no limit.
 struct BakeLimits {

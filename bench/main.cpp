@@ -1,5 +1,5 @@
-// footprint_bench: the time of frames, the reference, start-up, mip chains, mixtures, edits of small-scale geometry and
-// bakes (docs/performance.md).
+// footprint_bench: the time of frames, the reference, mixtures, edits of small-scale geometry and bakes
+// (docs/performance.md).
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,7 @@ struct Request {
 constexpr const char* examples = R"(
 Examples:
   footprint_bench
-  footprint_bench --benchmark_filter=mip
+  footprint_bench --benchmark_filter=tan_gmm
   footprint_bench --ratios 31
   footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
   footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
@@ -109,11 +109,7 @@ void run(int argc, char** argv) {
       (void)std::fputs(footprint::bench::ratio_table(*subject, request.over, request.ratio_rounds).c_str(), stdout);
     return;
   }
-  if (subject) {
-    footprint::bench::register_frame_benchmarks(*subject);
-    footprint::bench::register_start_up_benchmarks(*subject);
-  }
-  footprint::bench::register_mip_benchmarks();
+  if (subject) footprint::bench::register_frame_benchmark(*subject);
   footprint::bench::register_tan_gmm_benchmarks();
   footprint::bench::register_iwasaki_benchmarks();
   benchmark::RunSpecifiedBenchmarks();

@@ -71,7 +71,7 @@ function(footprint_add_test name)
 endfunction()
 
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in
-# namespace footprint::embedded (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run
+# namespace footprint (renderer/core/embedded_texts.hpp), so that the program needs no file of its own at run
 # time. A file that is added is in the table without another line; without a match the table is not made.
 function(footprint_embed target symbol)
   file(GLOB texts CONFIGURE_DEPENDS ${ARGN})

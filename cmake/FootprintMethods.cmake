@@ -3,7 +3,7 @@
 # footprint_add_method(NAME [SOURCES extra.cpp ...] [TEXTS other/text.glsl ...] [STUDY figures.cpp ...]
 #                      [LIBRARIES ...] [BAKE_TESTS extra ...]):
 # a prefiltering method in the folder NAME, or in the current folder where that contains NAME.cpp, with NAME.cpp (which
-# defines `const Method& NAME_method()`), its *.glsl (whose texts are footprint::embedded::NAME_glsl) and a test program
+# defines `const Method& NAME_method()`), its *.glsl (whose texts are footprint::NAME_glsl) and a test program
 # of its *_test.cpp. Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
 # names texts of other methods' folders that the module includes too, from the current folder on. STUDY names sources in
 # its folder study/, a library of their own that no picture needs; they define `std::span<const Quantity>

@@ -324,7 +324,7 @@ struct SceneDistances {
   std::vector<double> distances;
 };
 
-// Errors (usage) of the scene, in the name of the line that asks for it.
+// Errors (usage) of the scene, in the name of the line that names it.
 SceneDistances distances_over_scene(const Experiment& experiment, const std::string& name) {
   try {
     (void)read_scene(experiment.run.scene, experiment.run.scene_library, experiment.run.overrides);
@@ -433,7 +433,7 @@ std::vector<double> distances_of(const Experiment& experiment) {
   const RunSettings& run = experiment.run;
   std::vector<double> given = given_distances(run.view);
   if (!given.empty()) return given;
-  Scene with_distances;  // all that a zoom path asks of a scene
+  Scene with_distances;  // all that a zoom path needs of a scene
   with_distances.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
   return run_distances(run.view, with_distances);
 }

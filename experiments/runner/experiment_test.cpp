@@ -164,8 +164,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
 
 TEST_F(ExperimentFile, AllIsEveryMethodExceptSlowOnes) {
   const Experiment experiment = read("[experiment]\ntitle = \"t\"\nscene = \"s\"\nmethods = \"all\"\n");
-  const auto slow =
-      std::ranges::count_if(all_methods(), [](const Method* method) { return method->info().slow_frame; });
+  const auto slow = std::ranges::count_if(all_methods(), [](const Method* method) { return method->info.slow_frame; });
   EXPECT_GT(slow, 0);
   EXPECT_EQ(experiment.run.methods.size() + static_cast<std::size_t>(slow), all_methods().size());
 }

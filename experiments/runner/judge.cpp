@@ -166,7 +166,7 @@ void NoiseGuard::see(std::size_t member, std::span<const Record> records) {
   std::vector<Record>& known = known_[member].records;
   std::erase_if(known, [&](const Record& record) { return record.distance == records.front().distance; });
   for (const Record& record : records) {
-    Record& own = known.emplace_back();  // without what no threshold here asks for
+    Record& own = known.emplace_back();  // without the fields that no threshold here uses
     own.method = record.method;
     own.distance = record.distance;
     own.frame = record.frame;

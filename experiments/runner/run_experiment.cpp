@@ -28,8 +28,7 @@ struct FurtherFigures {
   std::vector<QuantityFigure> quantities;
 };
 
-template <class Archive>
-void fields(Archive& archive, Is<FurtherFigures> auto& value) {
+void fields(auto& archive, Is<FurtherFigures> auto& value) {
   archive("ndf", value.ndf);
   archive("quantities", value.quantities);
 }

@@ -24,8 +24,8 @@ std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
 std::vector<MethodSpec> every_method() {
   std::vector<MethodSpec> methods;
   for (const Method* method : all_methods()) {
-    if (method->info().slow_frame) continue;
-    methods.push_back({.text = method->info().name, .name = method->info().name, .options = {}});
+    if (method->info.slow_frame) continue;
+    methods.push_back({.text = method->info.name, .name = method->info.name, .options = {}});
   }
   return methods;
 }

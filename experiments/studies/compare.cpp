@@ -40,7 +40,7 @@ struct Workbench {
             const Progress& staging, ProgressParts& progress, SharedReferences* shared, const GpuCompiler& compiler)
       : stage(std::move(scene), settings, staging, pictures_of_a_frame,
               is_animation(settings) ? Unit::none : Unit::direct,
-              is_animation(settings) ? Refusal::ends_the_run : Refusal::keeps_a_row),
+              is_animation(settings) ? Refusal::ends_the_run : Refusal::is_recorded),
         measurer(stage),
         references(settings, stage, folder, progress, shared) {
     if (!settings.gpus.empty()) gpu_costs.emplace(stage, settings.gpus, compiler);

@@ -45,8 +45,7 @@ struct ComparisonHead {
 
 constexpr const auto& words_of(ExposureSource /*source*/) { return exposure_sources; }
 
-template <class Archive>
-void fields(Archive& archive, Is<DistanceResult> auto& value) {
+void fields(auto& archive, Is<DistanceResult> auto& value) {
   archive("distance", value.distance);
   archive("exposure", std::tie(value.exposure.factor, value.exposure.source));
   archive("wanted_noise", value.wanted_noise);
@@ -63,8 +62,7 @@ void fields(Archive& archive, Is<DistanceResult> auto& value) {
   archive("warnings", value.warnings);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ComparisonHead> auto& value) {
+void fields(auto& archive, Is<ComparisonHead> auto& value) {
   archive("backend", value.backend);
   archive("scene", value.scene);
   archive("reference", value.reference);

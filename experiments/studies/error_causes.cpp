@@ -131,9 +131,9 @@ Image within(const Image& mask, std::span<const Tile> tiles) {
 std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use, std::vector<std::string>& warnings) {
   if (use == BoundUse::off) return {};
   const auto all = all_methods();
-  const auto found = std::ranges::find(all, bound_name, [](const Method* m) { return m->info().name; });
+  const auto found = std::ranges::find(all, bound_name, [](const Method* m) { return m->info.name; });
   if (found == all.end()) return {};
-  const EffectSet left_out = stage.effects() & ~(*found)->info().honours;
+  const EffectSet left_out = stage.effects() & ~(*found)->info.honours;
   if (left_out.any()) {
     warnings.push_back(
         fmt::format("no bound is drawn: {} leaves out {}", bound_name, fmt::join(effect_names(left_out), ", ")));

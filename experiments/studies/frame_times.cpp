@@ -88,7 +88,7 @@ void set_times(std::span<Record> records, const Stage& stage, std::span<const Di
     record.ratio_to_direct = has_unit ? ratio_between(times, unit_times) : unknown_ratio;
     if (!is_built) continue;
     record.frame_build_ms = quantile(pooled(processes, own_build), 0.5);
-    record.frame_build = staged.gpu().keeps_builds() ? BuildTiming::reused : BuildTiming::every_frame;
+    record.frame_build = staged.gpu().reuses_build() ? BuildTiming::reused : BuildTiming::every_frame;
   }
 }
 

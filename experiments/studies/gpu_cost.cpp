@@ -267,7 +267,7 @@ double GpuCosts::passes_ns(const CompilingChip& chip, const CostedFrame& frame) 
 CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compile, const Progress& progress) {
   ProgressParts parts(progress, 10);
   const Stage stage(load_scene(settings.scene, settings.scene_library, settings.overrides), settings, parts.next(4, ""),
-                    pictures_of_a_frame, Unit::none, Refusal::keeps_a_row);
+                    pictures_of_a_frame, Unit::none, Refusal::is_recorded);
   const View view = stage.view(distance_of(settings));
   GpuCosts gpus(stage, settings.gpus, compile);
   CostReport report;

@@ -28,7 +28,7 @@ ErrorCauses causes_of(const ReferenceView& target, const Image& picture, float e
   return causes;
 }
 
-// Over interior pixels, where there are some: supersampling mends edges, and no method here does.
+// Over interior pixels, where there are some: supersampling corrects edges, and no method here does.
 std::optional<EquivalentSamples> equivalent(const ReferenceView& target, const RecordError& error) {
   const std::optional<double>& shading = error.causes.shading;
   const auto curve = supersampling_curve(
@@ -148,7 +148,7 @@ void MethodMeasurer::set_material_errors(Record& record, const ReferenceView& ta
 
 Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView& target) const {
   const BakedMethod& baked = method.baked();
-  const EffectSet& honours = baked.method->info().honours;
+  const EffectSet& honours = baked.method->info.honours;
   Record record;
   record.scene = stage_.scene().name;
   record.method = baked.spec.text;
@@ -172,7 +172,7 @@ Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView
 // The lookup of an environment by the method's lobes against all of its light shaded by the method.
 void MethodMeasurer::set_light_error(Record& record, const ReferenceView& target, const Image& picture,
                                      const StagedMethod& method, float exposure) {
-  const MethodInfo& info = method.baked().method->info();
+  const MethodInfo& info = method.baked().method->info;
   const bool is_lit = has(info.honours, Effect::environment_light) && !info.slow_frame;  // thousands of lights
   if (!record.error || target.light.tiles.empty() || !is_lit) return;
   if (!dense_frames_.contains(&method)) dense_frames_.emplace(&method, stage_.dense_frames(method));
@@ -184,7 +184,7 @@ void MethodMeasurer::set_light_error(Record& record, const ReferenceView& target
 }
 
 void MethodMeasurer::count_work(Record& record, const StagedMethod& method, const View& view) {
-  if (method.baked().method->info().slow_frame) return;
+  if (method.baked().method->info.slow_frame) return;
   if (!counting_.contains(&method)) counting_.emplace(&method, stage_.counting_frames(method, Counting::work));
   const PixelWork work = pixel_work(counting_.at(&method), view);
   record.fetches = work.lookups;

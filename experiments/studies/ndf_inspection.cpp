@@ -262,7 +262,7 @@ class NdfEvaluator {
 
   // The weight of a method in progress; 1 for a bake of milliseconds.
   [[nodiscard]] double weight_of(const MethodSpec& spec) const {
-    const MethodInfo& info = find_method(spec.name).info();
+    const MethodInfo& info = find_method(spec.name).info;
     if (!info.slow_precompute) return 1.0;
     constexpr double slow = 30.0;
     return info.bakes_by_texel ? std::max(slow * share_, 1.0) : slow;
@@ -292,7 +292,7 @@ class NdfEvaluator {
 
  private:
   BakeTarget& target_of(const Method& method) {
-    if (!part_ || !method.info().bakes_by_texel) return whole_;
+    if (!part_ || !method.info.bakes_by_texel) return whole_;
     if (!partial_) partial_.emplace(context_, part_->material, part_->rect, effects_, cache_ ? &*cache_ : nullptr);
     return *partial_;
   }

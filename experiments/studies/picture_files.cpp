@@ -43,8 +43,9 @@ Image counted_reference(const std::filesystem::path& folder, const DistanceResul
 
 std::string error_file(const std::filesystem::path& folder, const Record& record, const std::string& end,
                        const Image& error, double top) {
-  const std::string stem = std::filesystem::path(record.images.color).stem().string();
-  return write_error_picture(folder, stem + end, error, static_cast<float>(top));
+  const std::string stem = std::filesystem::path(record.images.color).stem().string() + end;
+  write_png(folder / "images" / (stem + ".png"), false_color(error, static_cast<float>(top)));
+  return "images/" + stem + ".png";
 }
 
 }  // namespace
@@ -76,12 +77,6 @@ std::string write_picture(const std::filesystem::path& folder, const std::string
   write_exr(folder / "images" / (stem + ".exr"), radiance);
   write_png(folder / "images" / (stem + ".png"), to_display(radiance, exposure));
   return "images/" + stem + ".exr";
-}
-
-std::string write_error_picture(const std::filesystem::path& folder, const std::string& stem, const Image& error,
-                                float scale) {
-  write_png(folder / "images" / (stem + ".png"), false_color(error, scale));
-  return "images/" + stem + ".png";
 }
 
 std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,

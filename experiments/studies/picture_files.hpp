@@ -30,10 +30,6 @@ struct DistanceResult;
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
                           float exposure);
 
-/// Writes FOLDER/images/STEM.png in false colour from 0 to `scale`; returns "images/STEM.png".
-std::string write_error_picture(const std::filesystem::path& folder, const std::string& stem, const Image& error,
-                                float scale);
-
 /// The same, and STEM_dark.png four stops darker, from which the page shows highlights that the other one clips.
 std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
                                     float exposure);

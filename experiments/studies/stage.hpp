@@ -38,7 +38,7 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The handling of a method that exceeds memory, or whose textures or program OpenGL refuses.
 enum class Refusal {
   ends_the_run,  ///< an error
-  keeps_a_row    ///< the method is staged without maps or frames, and says why (StagedMethod::refusal)
+  is_recorded    ///< the method is staged without maps or frames, and says why (StagedMethod::refusal)
 };
 
 /// Whether the stage has `direct` as the unit that frame times and samples are counted in.

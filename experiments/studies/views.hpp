@@ -14,7 +14,7 @@ namespace footprint {
 /// looks like the one before.
 [[nodiscard]] std::vector<double> zoom_distances(double from, double to, int frames);
 
-/// Those that a run asks for, as far as they are known without its scene; empty: the scene decides.
+/// Those of a run that are known without its scene; empty: the scene decides.
 [[nodiscard]] std::vector<double> given_distances(const ViewSettings& view);
 
 /// Those of a run over `scene`, one or more. Errors (usage): a zoom that ends where it starts.

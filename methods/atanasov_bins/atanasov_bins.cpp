@@ -15,9 +15,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts atanasov_bins_glsl;
-}
 
 namespace {
 
@@ -140,95 +138,92 @@ TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths)
   return out;
 }
 
-class AtanasovBins final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    Prefiltered out;
-    const Settings settings = settings_of(options);
-    const int across = bins_across(material, settings);
-    out.scalars["bins_across"] = static_cast<float>(across);
-    if (reads_base_lobe(settings)) {
-      append(out.textures, bake_lobe_variance(material, Storage::fp32, effects).textures);
-    }
-    if (!has(effects, Effect::normal_variation)) return out;
-    if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material, settings.storage));
-    const bool by_width = settings.roughness == Roughness::lobe && has(effects, Effect::roughness_variation);
-    if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
-    const Image normals = normal_map_of(material);
-    const BinMap bins = bin_map(normals, across, progress);
-    out.textures.push_back(bin_map_texture(bins, normal_coordinates(material)));
-    std::vector<WidthClass> classes{{.across = across, .widest = spread_in_bin(across), .from = 0.0}};
-    TexelClasses texels;
-    Image widths(normals.width, normals.height, 1);
-    if (by_width && knows_widths(material)) {
-      widths = widths_of_texels(material, {normals.width, normals.height});
-      classes = classes_of(widths, settings.most_across);
-      texels = texels_of(classes, widths);
-    }
-    const InverseMap inverse = inverse_of(bins, progress, texels);
-    add_inverse_map(inverse, out);
-    if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
-    if (settings.roughness != Roughness::bin) {
-      const std::vector<glm::vec2> roundings = list_roundings(inverse, bins, normals);
-      add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
-      out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());
-      add_classes(classes, out);
-      out.textures.push_back(word_texture("bins_moments", node_moments(inverse, bins, texels)));
-    }
-    out.scalars["bins_wrap_u"] = wrap_number(normal_coordinates(material).wrap[0]);
-    out.scalars["bins_wrap_v"] = wrap_number(normal_coordinates(material).wrap[1]);
-    return out;
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  Prefiltered out;
+  const Settings settings = settings_of(options);
+  const int across = bins_across(material, settings);
+  out.scalars["bins_across"] = static_cast<float>(across);
+  if (reads_base_lobe(settings)) {
+    append(out.textures, bake_lobe_variance(material, Storage::fp32, effects).textures);
   }
-
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::atanasov_bins_glsl, "atanasov_bins.glsl");
+  if (!has(effects, Effect::normal_variation)) return out;
+  if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material, settings.storage));
+  const bool by_width = settings.roughness == Roughness::lobe && has(effects, Effect::roughness_variation);
+  if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
+  const Image normals = normal_map_of(material);
+  const BinMap bins = bin_map(normals, across, progress);
+  out.textures.push_back(bin_map_texture(bins, normal_coordinates(material)));
+  std::vector<WidthClass> classes{{.across = across, .widest = spread_in_bin(across), .from = 0.0}};
+  TexelClasses texels;
+  Image widths(normals.width, normals.height, 1);
+  if (by_width && knows_widths(material)) {
+    widths = widths_of_texels(material, {normals.width, normals.height});
+    classes = classes_of(widths, settings.most_across);
+    texels = texels_of(classes, widths);
   }
-
- private:
-  MethodInfo info_{
-      .name = "atanasov_bins",
-      .summary = "Normals sorted into bins of the half vector; trees count each bin's texels under the footprint.",
-      .paper = "Atanasov, Krivanek, Koylazov, Wilkie 2020, Efficient Multiscale Rendering of Specular Microstructure",
-      .options =
-          {whole_option(
-               "m", 0, 0, most_bins_across,
-               "Bins along an edge: the hemisphere has m x m of equal solid angle. 0: 127 with roughness=bin; with the "
-               "others bins 1.5 of the lobes' deviations wide, and at most m if it is given."),
-           word_option("roughness", {"lobe", "bin", "flakes"},
-                       "What spreads a texel's normal: the base lobe about it, bins around the half vector included; "
-                       "the bin that it is in, as published; a Beckmann lobe of `alpha` of every flake's own."),
-           number_option("alpha", 0.01, 0.0025, 0.04, "With roughness=flakes: Beckmann's width of a flake."),
-           word_option("footprint", {"parallelogram", "box", "filter"},
-                       "Which texels count: those under the pixel's parallelogram; those in the box about it along the "
-                       "map's axes; those that the footprint filter would blend."),
-           word_option(
-               "border", {"nodes", "texels"},
-               "How texels count at the footprint's border: by samples of the nodes of the trees narrower than a "
-               "quarter "
-               "of it, so that a pixel's cost does not grow with its footprint; or one by one as far as the steps of a "
-               "pixel allow."),
-           word_option("surface", {"facets", "microfacets"},
-                       "What the density is of: texels that each reflect about their own normal, as the reference has "
-                       "them; microfacets of a surface about its own normal, as published, D over the cosine."),
-           whole_option("draws", 16, 1, 1024,
-                        "Under an environment: so many normals are drawn from under a pixel (section 2.1), each a lobe "
-                        "of its own; of fewer texels all are taken."),
-           word_option("storage", {"fp16", "fp32"},
-                       "Format of the means of normals over 4 x 4 texels and more, about which diffuse light is "
-                       "reflected over wide footprints. All other numbers are integers, or one per bin.")},
-      .honours = map_effects_but({Effect::normal_layers}),
-      .lobes_as_given = true,
-      .slow_precompute = true,
-      .slow_frame = true};
-};
+  const InverseMap inverse = inverse_of(bins, progress, texels);
+  add_inverse_map(inverse, out);
+  if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
+  if (settings.roughness != Roughness::bin) {
+    const std::vector<glm::vec2> roundings = list_roundings(inverse, bins, normals);
+    add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
+    out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());
+    add_classes(classes, out);
+    out.textures.push_back(word_texture("bins_moments", node_moments(inverse, bins, texels)));
+  }
+  out.scalars["bins_wrap_u"] = wrap_number(normal_coordinates(material).wrap[0]);
+  out.scalars["bins_wrap_v"] = wrap_number(normal_coordinates(material).wrap[1]);
+  return out;
+}
 
 }  // namespace
 
 const Method& atanasov_bins_method() {
-  static const AtanasovBins method;
+  static const Method method{
+      .info =
+          {.name = "atanasov_bins",
+           .summary = "Normals sorted into bins of the half vector; trees count each bin's texels under the footprint.",
+           .paper =
+               "Atanasov, Krivanek, Koylazov, Wilkie 2020, Efficient Multiscale Rendering of Specular Microstructure",
+           .options =
+               {whole_option("m", 0, 0, most_bins_across,
+                             "Bins along an edge: the hemisphere has m x m of equal solid angle. 0: 127 with "
+                             "roughness=bin; with the "
+                             "others bins 1.5 of the lobes' deviations wide, and at most m if it is given."),
+                word_option(
+                    "roughness", {"lobe", "bin", "flakes"},
+                    "What spreads a texel's normal: the base lobe about it, bins around the half vector included; "
+                    "the bin that it is in, as published; a Beckmann lobe of `alpha` of every flake's own."),
+                number_option("alpha", 0.01, 0.0025, 0.04, "With roughness=flakes: Beckmann's width of a flake."),
+                word_option(
+                    "footprint", {"parallelogram", "box", "filter"},
+                    "Which texels count: those under the pixel's parallelogram; those in the box about it along the "
+                    "map's axes; those that the footprint filter would blend."),
+                word_option(
+                    "border", {"nodes", "texels"},
+                    "How texels count at the footprint's border: by samples of the nodes of the trees narrower than a "
+                    "quarter "
+                    "of it, so that a pixel's cost does not grow with its footprint; or one by one as far as the steps "
+                    "of a "
+                    "pixel allow."),
+                word_option(
+                    "surface", {"facets", "microfacets"},
+                    "What the density is of: texels that each reflect about their own normal, as the reference has "
+                    "them; microfacets of a surface about its own normal, as published, D over the cosine."),
+                whole_option(
+                    "draws", 16, 1, 1024,
+                    "Under an environment: so many normals are drawn from under a pixel (section 2.1), each a lobe "
+                    "of its own; of fewer texels all are taken."),
+                word_option("storage", {"fp16", "fp32"},
+                            "Format of the means of normals over 4 x 4 texels and more, about which diffuse light is "
+                            "reflected over wide footprints. All other numbers are integers, or one per bin.")},
+           .honours = map_effects_but({Effect::normal_layers}),
+           .lobes_as_given = true,
+           .slow_precompute = true,
+           .slow_frame = true},
+      .precompute = precompute,
+      .shader = module_of(atanasov_bins_glsl, "atanasov_bins.glsl")};
   return method;
 }
 

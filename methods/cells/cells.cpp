@@ -12,9 +12,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts cells_glsl;
-}
 
 namespace {
 
@@ -28,7 +26,7 @@ std::vector<OptionSpec> option_table() {
                       "a part, or by one mixture over the whole map."),
           word_option("storage", {"fp32", "fp16"}, "How moments are stored: 32-bit or 16-bit floats."),
           word_option("covariance", {"axes", "full"},
-                      "What a texel keeps of a part's covariance: along the part's own axes, or whole."),
+                      "What a texel stores of a part's covariance: along the part's own axes, or whole."),
           word_option("coordinates", {"stereographic", "slopes"},
                       "What moments are of: the stereographic projection of normals, or their slopes, as LEAN has "
                       "them."),
@@ -134,54 +132,43 @@ void add_roughness(const Material& material, const PartedNormals& normals, Stora
     out.notes.emplace_back("the roughness map does not lie on the normal map's texels: all parts have one variance");
 }
 
-class Cells final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    const Settings settings = settings_of(options);
-    const Storage storage = settings.storage;
-    if (!has(effects, Effect::normal_variation)) return bake_lobe_variance(material, storage, effects);
-    Prefiltered out;
-    const PartedNormals normals = parted(material, settings, progress);
-    add_moments(normals, settings, normal_coordinates(material), out);
-    // Stereographic moments give the mean of the unit normals; moments of slopes do not.
-    if (has(effects, Effect::diffuse) && settings.coordinates == cells::Coordinates::slopes)
-      out.textures.push_back(
-          make_texture("cells_normal", mean_normal_chain(material), storage, normal_coordinates(material)));
-    if (!has(effects, Effect::roughness_variation)) return out;
-    if (settings.joint_roughness) {
-      add_roughness(material, normals, storage, effects, out);
-    } else {
-      append(out.textures, bake_lobe_variance(material, storage, effects).textures);
-    }
-    return out;
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  const Settings settings = settings_of(options);
+  const Storage storage = settings.storage;
+  if (!has(effects, Effect::normal_variation)) return bake_lobe_variance(material, storage, effects);
+  Prefiltered out;
+  const PartedNormals normals = parted(material, settings, progress);
+  add_moments(normals, settings, normal_coordinates(material), out);
+  // Stereographic moments give the mean of the unit normals; moments of slopes do not.
+  if (has(effects, Effect::diffuse) && settings.coordinates == cells::Coordinates::slopes)
+    out.textures.push_back(
+        make_texture("cells_normal", mean_normal_chain(material), storage, normal_coordinates(material)));
+  if (!has(effects, Effect::roughness_variation)) return out;
+  if (settings.joint_roughness) {
+    add_roughness(material, normals, storage, effects, out);
+  } else {
+    append(out.textures, bake_lobe_variance(material, storage, effects).textures);
   }
-
-  [[nodiscard]] int lobe_count(const Options& options) const override { return settings_of(options).parts; }
-
-  // common_slopes.glsl reads these flags of `lean`.
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::cells_glsl, "cells.glsl",
-                     {{"variant_clean", false}, {"roughness_stretched", true}, {"roughness_moments", false}});
-  }
-
- private:
-  MethodInfo info_{.name = "cells",
-                   .summary =
-                       "Mean and covariance for each of several groups of normals, the same groups at every level: "
-                       "moments that filter linearly, one stretched lobe per group.",
-                   .paper = "Footprint's own; with one part Olano and Baker 2010, LEAN Mapping, I3D",
-                   .options = option_table(),
-                   .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
-                   .slow_precompute = true};
-};
+  return out;
+}
 
 }  // namespace
 
 const Method& cells_method() {
-  static const Cells method;
+  static const Method method{
+      .info = {.name = "cells",
+               .summary = "Mean and covariance for each of several groups of normals, the same groups at every level: "
+                          "moments that filter linearly, one stretched lobe per group.",
+               .paper = "Footprint's own; with one part Olano and Baker 2010, LEAN Mapping, I3D",
+               .options = option_table(),
+               .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
+               .slow_precompute = true},
+      .precompute = precompute,
+      // common_slopes.glsl reads these flags of `lean`.
+      .shader = module_of(cells_glsl, "cells.glsl",
+                          {{"variant_clean", false}, {"roughness_stretched", true}, {"roughness_moments", false}}),
+      .lobe_count = [](const Options& options) { return settings_of(options).parts; }};
   return method;
 }
 

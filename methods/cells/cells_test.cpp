@@ -380,7 +380,7 @@ TEST(Cells, StoresWhatIsCalledFor) {
   const auto layers = [&](const Words& words, std::initializer_list<Effect> effects) {
     EffectSet set;
     for (const Effect effect : effects) set.set(static_cast<std::size_t>(effect));
-    const Options options(cells_method().info().options, words, "cells");
+    const Options options(cells_method().info.options, words, "cells");
     int count = 0;
     for (const PrefilteredTexture& texture : cells_method().precompute(material, options, set, no_progress).textures)
       count += std::max(texture.layers, 1);

@@ -5,9 +5,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts exact_glsl;
-}
 
 namespace {
 
@@ -18,43 +16,37 @@ TextureCoordinates grid_coordinates(const Material& material, const EffectSet& e
   return roughness_coordinates(material);
 }
 
-class Exact final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    Prefiltered out = base_surface().precompute(material, options, effects, progress);
-    for (PrefilteredTexture& texture : out.textures) texture.filter = TextureFilter::nearest;
-    const std::array<Wrap, 2> wrap = grid_coordinates(material, effects).wrap;
-    out.scalars["exact_clamp_u"] = wrap[0] == Wrap::clamp_to_edge ? 1.0F : 0.0F;
-    out.scalars["exact_clamp_v"] = wrap[1] == Wrap::clamp_to_edge ? 1.0F : 0.0F;
-    return out;
-  }
-
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::exact_glsl, "exact.glsl"); }
-
- private:
-  MethodInfo info_{
-      .name = "exact",
-      .summary = "The base BRDF summed over all texels under a kernel: what no stored NDF can beat.",
-      .paper = "",
-      .options = {word_option("kernel", {"filter", "pixel", "areas"},
-                              "Which texels, with which weights: those that the footprint filter would blend; those "
-                              "under the pixel's parallelogram as the reference draws them; those by the areas that "
-                              "it cuts out of them."),
-                  whole_option("texels", 128, 8, 512,
-                               "The side of the largest square of texels under a pixel that is summed texel by texel; "
-                               "of a larger one about as many are drawn, one from each cell.")},
-      .honours = map_effects_but({}),
-      .sums_environment = true,
-      .slow_frame = true};
-};
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  Prefiltered out = base_surface().precompute(material, options, effects, progress);
+  for (PrefilteredTexture& texture : out.textures) texture.filter = TextureFilter::nearest;
+  const std::array<Wrap, 2> wrap = grid_coordinates(material, effects).wrap;
+  out.scalars["exact_clamp_u"] = wrap[0] == Wrap::clamp_to_edge ? 1.0F : 0.0F;
+  out.scalars["exact_clamp_v"] = wrap[1] == Wrap::clamp_to_edge ? 1.0F : 0.0F;
+  return out;
+}
 
 }  // namespace
 
 const Method& exact_method() {
-  static const Exact method;
+  static const Method method{
+      .info = {.name = "exact",
+               .summary = "The base BRDF summed over all texels under a kernel: what no stored NDF can beat.",
+               .paper = "",
+               .options = {word_option(
+                               "kernel", {"filter", "pixel", "areas"},
+                               "Which texels, with which weights: those that the footprint filter would blend; those "
+                               "under the pixel's parallelogram as the reference draws them; those by the areas that "
+                               "it cuts out of them."),
+                           whole_option(
+                               "texels", 128, 8, 512,
+                               "The side of the largest square of texels under a pixel that is summed texel by texel; "
+                               "of a larger one about as many are drawn, one from each cell.")},
+               .honours = map_effects_but({}),
+               .sums_environment = true,
+               .slow_frame = true},
+      .precompute = precompute,
+      .shader = module_of(exact_glsl, "exact.glsl")};
   return method;
 }
 

@@ -6,43 +6,35 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts fixed_brdf_glsl;
-}
 
 namespace {
 
-class FixedBrdf final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    const Storage storage = parse_storage(options.word("storage"));
-    Prefiltered out = bake_mean_normal(material, storage, effects);
-    if (has(effects, Effect::roughness_variation)) {
-      // Only the finest level, because reflectance is not filtered.
-      out.textures.push_back(
-          make_level_texture("fixed_roughness", roughness_map_of(material), storage, roughness_coordinates(material)));
-    }
-    return out;
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  const Storage storage = parse_storage(options.word("storage"));
+  Prefiltered out = bake_mean_normal(material, storage, effects);
+  if (has(effects, Effect::roughness_variation)) {
+    // Only the finest level, because reflectance is not filtered.
+    out.textures.push_back(
+        make_level_texture("fixed_roughness", roughness_map_of(material), storage, roughness_coordinates(material)));
   }
-
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fixed_brdf_glsl, "fixed_brdf.glsl"); }
-
- private:
-  MethodInfo info_{
-      .name = "fixed_brdf",
-      .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
-      .paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
-      .options = {storage_option()},
-      .honours = map_effects_but({Effect::normal_layers})};
-};
+  return out;
+}
 
 }  // namespace
 
 const Method& fixed_brdf_method() {
-  static const FixedBrdf method;
+  static const Method method{
+      .info =
+          {.name = "fixed_brdf",
+           .summary = "The finest level's reflectance at any distance, over geometry that is filtered.",
+           .paper =
+               "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
+           .options = {storage_option()},
+           .honours = map_effects_but({Effect::normal_layers})},
+      .precompute = precompute,
+      .shader = module_of(fixed_brdf_glsl, "fixed_brdf.glsl")};
   return method;
 }
 

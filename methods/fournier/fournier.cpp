@@ -15,9 +15,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts fournier_glsl;
-}
 
 namespace {
 
@@ -48,67 +46,57 @@ std::string note_on(const fournier::FitStatistics& statistics) {
       statistics.not_converged, statistics.fits, statistics.mean_error);
 }
 
-class Fournier final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+void add_peaks(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
+  fournier::PeakChain chain = fournier::fit_peak_chain(normal_map_of(material), base_variance(material), settings.peaks,
+                                                       settings.start, progress);
+  if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
+  const TextureCoordinates coordinates = normal_coordinates(material);
+  std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
+  first.push_back(std::move(chain.first));
+  out.textures.push_back(
+      make_array_texture("fournier_first", std::move(first), settings.storage, coordinates, TextureFilter::nearest));
+  out.textures.push_back(make_array_texture("fournier_rest", std::move(chain.rest), settings.storage, coordinates,
+                                            TextureFilter::nearest));
+}
 
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    const Settings settings = settings_of(options);
-    Prefiltered out;
-    if (has(effects, Effect::normal_variation)) {
-      add_peaks(material, settings, progress, out);
-      if (has(effects, Effect::diffuse)) {
-        out.textures.push_back(
-            make_texture("fournier_mean", mean_normal_chain(material), settings.storage, normal_coordinates(material)));
-      }
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  const Settings settings = settings_of(options);
+  Prefiltered out;
+  if (has(effects, Effect::normal_variation)) {
+    add_peaks(material, settings, progress, out);
+    if (has(effects, Effect::diffuse)) {
+      out.textures.push_back(
+          make_texture("fournier_mean", mean_normal_chain(material), settings.storage, normal_coordinates(material)));
     }
-    append(out.textures, bake_lobe_variance(material, settings.storage, effects).textures);
-    return out;
   }
-
-  [[nodiscard]] int lobe_count(const Options& options) const override {
-    return 8 * static_cast<int>(settings_of(options).peaks);
-  }
-
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::fournier_glsl, "fournier.glsl"); }
-
- private:
-  static void add_peaks(const Material& material, const Settings& settings, const Progress& progress,
-                        Prefiltered& out) {
-    fournier::PeakChain chain = fournier::fit_peak_chain(normal_map_of(material), base_variance(material),
-                                                         settings.peaks, settings.start, progress);
-    if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
-    const TextureCoordinates coordinates = normal_coordinates(material);
-    std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
-    first.push_back(std::move(chain.first));
-    out.textures.push_back(
-        make_array_texture("fournier_first", std::move(first), settings.storage, coordinates, TextureFilter::nearest));
-    out.textures.push_back(make_array_texture("fournier_rest", std::move(chain.rest), settings.storage, coordinates,
-                                              TextureFilter::nearest));
-  }
-
-  MethodInfo info_{
-      .name = "fournier",
-      .summary = "Phong peaks fitted to every texel's distribution of normals; those of eight texels are summed.",
-      .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces (as Tan 2005 compares with it)",
-      .options = {whole_option(
-                      "peaks", 7, 1, 8,
-                      "Peaks per texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
-                      "pixel sums up to 8 times as many."),
-                  word_option("starts", {"inherited", "own"},
-                              "Where the fit of a texel starts from: the peaks of the finer texels below it, or the "
-                              "heaviest of its own normals, each with those nearest to it."),
-                  float_storage_option()},
-      .honours = map_effects_but({Effect::normal_layers}),
-      .slow_precompute = true,
-      .bakes_by_texel = true};
-};
+  append(out.textures, bake_lobe_variance(material, settings.storage, effects).textures);
+  return out;
+}
 
 }  // namespace
 
 const Method& fournier_method() {
-  static const Fournier method;
+  static const Method method{
+      .info =
+          {.name = "fournier",
+           .summary = "Phong peaks fitted to every texel's distribution of normals; those of eight texels are summed.",
+           .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces (as Tan 2005 compares with it)",
+           .options = {whole_option(
+                           "peaks", 7, 1, 8,
+                           "Peaks per texel above the finest level: 7 as Fournier has them, 4 in Tan 2005, figure 7. A "
+                           "pixel sums up to 8 times as many."),
+                       word_option(
+                           "starts", {"inherited", "own"},
+                           "Where the fit of a texel starts from: the peaks of the finer texels below it, or the "
+                           "heaviest of its own normals, each with those nearest to it."),
+                       float_storage_option()},
+           .honours = map_effects_but({Effect::normal_layers}),
+           .slow_precompute = true,
+           .bakes_by_texel = true},
+      .precompute = precompute,
+      .shader = module_of(fournier_glsl, "fournier.glsl"),
+      .lobe_count = [](const Options& options) { return 8 * static_cast<int>(settings_of(options).peaks); }};
   return method;
 }
 

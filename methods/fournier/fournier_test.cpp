@@ -44,7 +44,7 @@ struct Baked {
   Prefiltered prefiltered;
 
   Baked(const Image& normals, float s, const Given& given = {}, const Progress& progress = no_progress)
-      : exponent(s), options(fournier_method().info().options, given, "fournier") {
+      : exponent(s), options(fournier_method().info.options, given, "fournier") {
     Material material = square_scene(normals, {.brdf = blinn_phong}).materials[0];
     material.lobe_parameter = s;
     prefiltered = fournier_method().precompute(material, options, normals_alone(), progress);
@@ -79,7 +79,7 @@ std::vector<double> ndf(const Baked& baked, const SquareFootprint& footprint,
         unit, samplers.sampler(texture.coordinates, textures.back().sampler_state(SamplerState::trilinear)));
     text += "layout(binding = " + std::to_string(unit) + ") uniform sampler2DArray " + texture.name + ";\n";
   }
-  text += "vec4 lobe_cutoff;\n" + shared_functions(flags, fournier_method().shader());
+  text += "vec4 lobe_cutoff;\n" + shared_functions(flags, fournier_method().shader);
   std::vector<std::array<glm::vec4, 3>> inputs;
   inputs.reserve(directions.size());
   for (const glm::dvec3& h : directions)

@@ -202,7 +202,7 @@ TEST(IwasakiSg, MeetsTheReferenceOfAPatch) {
 // The paper's 2.3 MB for eight lobes in colour.
 TEST(IwasakiSg, TakesWhatThePaperTakes) {
   const Material material = patch_material(patch_of("weave", {{"warp_blue", "0"}}), blinn_phong, 100.0F);
-  const Options options(iwasaki_sg_method().info().options, {{"facets", "2000"}, {"j", "8"}}, "test");
+  const Options options(iwasaki_sg_method().info.options, {{"facets", "2000"}, {"j", "8"}}, "test");
   const Prefiltered baked = iwasaki_sg_method().precompute(material, options, effects_of(material), no_progress);
   EXPECT_LT(byte_count(baked), 2'300'000U);
   EXPECT_GT(byte_count(baked), 2'200'000U);

@@ -132,9 +132,9 @@ TEST(SphericalGaussian, ErrorOfTheSgFormFallsWithTheSquareOfTheSharpness) {
 }
 
 std::string functions() {
-  ShaderModule module = iwasaki_sg_method().shader();
+  ShaderModule module = iwasaki_sg_method().shader;
   module.text = "//? include iwasaki_sg_lobes.glsl\n//? include direction_grid.glsl\n";
-  return shared_functions(shader_flags({}, Options(iwasaki_sg_method().info().options, {}, "test")), module);
+  return shared_functions(shader_flags({}, Options(iwasaki_sg_method().info.options, {}, "test")), module);
 }
 
 // The software rasteriser's exp is good to 7e-6.

@@ -15,9 +15,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts leadr_glsl;
-}
 
 namespace {
 
@@ -64,42 +62,32 @@ std::optional<std::string> diffuse_range_note(const Image& normals, double steep
       taken, cosine / weight, 100.0 * error);
 }
 
-class Leadr final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    Prefiltered out = bake_slopes(material, options, effects, {});
-    if (has(effects, Effect::diffuse) && has(effects, Effect::normal_variation)) {
-      if (auto note = diffuse_range_note(normal_map_of(material), options.number("steepest")))
-        out.notes.push_back(*std::move(note));
-    }
-    return out;
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  Prefiltered out = bake_slopes(material, options, effects, {});
+  if (has(effects, Effect::diffuse) && has(effects, Effect::normal_variation)) {
+    if (auto note = diffuse_range_note(normal_map_of(material), options.number("steepest")))
+      out.notes.push_back(*std::move(note));
   }
-
-  // footprint_slopes.glsl reads these flags, which only `lean` sets.
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"with_mean_normal", false}});
-  }
-
- private:
-  MethodInfo info_{.name = "leadr",
-                   .summary = "The lobe of the footprint's slopes, masked and shadowed by those slopes.",
-                   .paper =
-                       "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, "
-                       "ACM TOG 32(6)",
-                   .options = {float_storage_option(), slope_roughness_option(), steepest_slope_option(),
-                               word_option("weighting", {"bump", "displacement"},
-                                           "What a texel counts for: all the same, as in a normal map, or its true and "
-                                           "visible area, as on a displaced surface.")},
-                   .honours = map_effects_but({Effect::multi_lobe})};
-};
+  return out;
+}
 
 }  // namespace
 
 const Method& leadr_method() {
-  static const Leadr method;
+  static const Method method{
+      .info = {.name = "leadr",
+               .summary = "The lobe of the footprint's slopes, masked and shadowed by those slopes.",
+               .paper = "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, "
+                        "ACM TOG 32(6)",
+               .options = {float_storage_option(), slope_roughness_option(), steepest_slope_option(),
+                           word_option("weighting", {"bump", "displacement"},
+                                       "What a texel counts for: all the same, as in a normal map, or its true and "
+                                       "visible area, as on a displaced surface.")},
+               .honours = map_effects_but({Effect::multi_lobe})},
+      .precompute = precompute,
+      // footprint_slopes.glsl reads these flags, which only `lean` sets.
+      .shader = module_of(leadr_glsl, "leadr.glsl", {{"variant_clean", false}, {"with_mean_normal", false}})};
   return method;
 }
 

@@ -350,7 +350,7 @@ TEST(Leadr, SaysWhereItsDiffuseTermIsOff) {
     EffectSet effects;
     effects.set(static_cast<std::size_t>(Effect::normal_variation));
     effects.set(static_cast<std::size_t>(Effect::diffuse), diffuse);
-    const Options options(leadr_method().info().options, {}, "test");
+    const Options options(leadr_method().info.options, {}, "test");
     std::string notes;
     for (const std::string& note :
          leadr_method()

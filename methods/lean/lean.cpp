@@ -6,9 +6,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts lean_glsl;
-}
 
 namespace {
 
@@ -18,35 +16,26 @@ StoredSlopes stored_slopes(const Options& options, const EffectSet& effects) {
           .mean_normal = has(effects, Effect::diffuse) && !has(effects, Effect::normal_layers)};
 }
 
-class Lean final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    return bake_slopes(material, options, effects, stored_slopes(options, effects));
-  }
-
-  // footprint_slopes.glsl serves `lean` and `leadr`, which differ in this texture.
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::lean_glsl, "lean.glsl", {{"with_mean_normal", true}});
-  }
-
- private:
-  MethodInfo info_{.name = "lean",
-                   .summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes.",
-                   .paper = "Olano and Baker 2010, LEAN Mapping, I3D",
-                   .options = {float_storage_option(), slope_roughness_option(), steepest_slope_option(),
-                               word_option("variant", {"lean", "clean"},
-                                           "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
-                                           "and three channels instead of five.")},
-                   .honours = map_effects_but({Effect::multi_lobe})};
-};
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  return bake_slopes(material, options, effects, stored_slopes(options, effects));
+}
 
 }  // namespace
 
 const Method& lean_method() {
-  static const Lean method;
+  static const Method method{
+      .info = {.name = "lean",
+               .summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes.",
+               .paper = "Olano and Baker 2010, LEAN Mapping, I3D",
+               .options = {float_storage_option(), slope_roughness_option(), steepest_slope_option(),
+                           word_option("variant", {"lean", "clean"},
+                                       "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe "
+                                       "and three channels instead of five.")},
+               .honours = map_effects_but({Effect::multi_lobe})},
+      .precompute = precompute,
+      // footprint_slopes.glsl serves `lean` and `leadr`, which differ in this texture.
+      .shader = module_of(lean_glsl, "lean.glsl", {{"with_mean_normal", true}})};
   return method;
 }
 

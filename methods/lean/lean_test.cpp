@@ -247,7 +247,7 @@ TEST(Lean, StoresWhatIsCalledFor) {
   const auto channels = [&](const Words& words, std::initializer_list<Effect> effects) {
     EffectSet set;
     for (const Effect effect : effects) set.set(static_cast<std::size_t>(effect));
-    const Options options(lean_method().info().options, words, "lean");
+    const Options options(lean_method().info.options, words, "lean");
     int count = 0;
     for (const PrefilteredTexture& texture : lean_method().precompute(material, options, set, no_progress).textures)
       count += texture.channels;

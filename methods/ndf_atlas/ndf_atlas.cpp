@@ -18,9 +18,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts ndf_atlas_glsl;
-}
 
 namespace {
 
@@ -154,44 +152,33 @@ void add_parts(const Material& material, const Settings& settings, const Progres
                                             normal_coordinates(material), TextureFilter::by_level));
 }
 
-class NdfAtlas final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    const Settings settings = settings_of(options);
-    Prefiltered out = bake_lobe_variance(material, settings.storage, effects);
-    if (!has(effects, Effect::normal_variation)) return out;
-    append(out.textures, bake_mean_normal(material, settings.storage, effects).textures);
-    ProgressParts steps(progress, 2);
-    add_parts(material, settings, steps.next(1, ""), out);
-    add_tables(plan_tables(material, settings, effects), material, settings.tables, steps.next(1, ""), out);
-    return out;
-  }
-
-  [[nodiscard]] int lobe_count(const Options& options) const override { return settings_of(options).parts; }
-
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}});
-  }
-
- private:
-  MethodInfo info_{
-      .name = "ndf_atlas",
-      .summary =
-          "From a level on every texel keeps the density of its normals itself, on a small lattice over "
-          "the half vector; finer levels have a lobe for each of a few parts of the normals.",
-      .paper = "Footprint's own; histograms of normals as in Gamboa et al. 2018, with the base lobe in them",
-      .options = option_table(),
-      .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
-      .slow_precompute = true};
-};
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  const Settings settings = settings_of(options);
+  Prefiltered out = bake_lobe_variance(material, settings.storage, effects);
+  if (!has(effects, Effect::normal_variation)) return out;
+  append(out.textures, bake_mean_normal(material, settings.storage, effects).textures);
+  ProgressParts steps(progress, 2);
+  add_parts(material, settings, steps.next(1, ""), out);
+  add_tables(plan_tables(material, settings, effects), material, settings.tables, steps.next(1, ""), out);
+  return out;
+}
 
 }  // namespace
 
 const Method& ndf_atlas_method() {
-  static const NdfAtlas method;
+  static const Method method{
+      .info = {.name = "ndf_atlas",
+               .summary =
+                   "From a level on every texel keeps the density of its normals itself, on a small lattice over "
+                   "the half vector; finer levels have a lobe for each of a few parts of the normals.",
+               .paper = "Footprint's own; histograms of normals as in Gamboa et al. 2018, with the base lobe in them",
+               .options = option_table(),
+               .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
+               .slow_precompute = true},
+      .precompute = precompute,
+      .shader = module_of(ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}}),
+      .lobe_count = [](const Options& options) { return settings_of(options).parts; }};
   return method;
 }
 

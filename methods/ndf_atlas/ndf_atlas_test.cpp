@@ -39,8 +39,8 @@ ProbedMethod tabulated(const Material& material, const Words& options = {}) {
 }
 
 Prefiltered baked(const Material& material, const Words& words, EffectSet effects = ProbedMethod::default_effects()) {
-  return ndf_atlas_method().precompute(material, Options(ndf_atlas_method().info().options, words, "ndf_atlas"),
-                                       effects, no_progress);
+  return ndf_atlas_method().precompute(material, Options(ndf_atlas_method().info.options, words, "ndf_atlas"), effects,
+                                       no_progress);
 }
 
 bool has_tables(const Prefiltered& prefiltered) { return prefiltered.scalars.at("ndf_atlas_level") < 100.0F; }

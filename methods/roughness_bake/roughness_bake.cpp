@@ -64,9 +64,7 @@ Prefiltered bake_roughness(const Material& material, Preset preset, Storage stor
 
 }  // namespace roughness_bake
 
-namespace embedded {
 extern const EmbeddedTexts roughness_bake_glsl;
-}
 
 namespace {
 
@@ -130,58 +128,49 @@ std::vector<Image> joined_chain(const Formula& formula, const Material& material
   return rough;
 }
 
-class RoughnessBake final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  const Formula formula = formula_of(options);
+  return bake_roughness(material, formula.preset, parse_storage(options.word("storage")), effects);
+}
 
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    const Formula formula = formula_of(options);
-    return bake_roughness(material, formula.preset, parse_storage(options.word("storage")), effects);
-  }
-
-  [[nodiscard]] std::optional<std::vector<Image>> roughness_mips(const Material& material,
-                                                                 const Options& options) const override {
-    if (!material.normal_map) return {};
-    const Formula formula = formula_of(options);
-    const Image rough = roughness_map_of(material);
-    const std::vector<Image> spread = spread_chain(normal_map_of(material), formula.preset);
-    const int width = std::max(rough.width, spread.front().width),
-              height = std::max(rough.height, spread.front().height);
-    const auto fine_spread = extended_chain(spread, width, height);
-    const auto fine_rough = extended_chain(mip_chain(rough), width, height);
-    require_one_map(material, fine_spread && fine_rough);
-    return joined_chain(formula, material, *fine_rough, *fine_spread);
-  }
-
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::roughness_bake_glsl, "roughness_bake.glsl");
-  }
-
- private:
-  MethodInfo info_{
-      .name = "roughness_bake",
-      .summary = "The mean normal under a lobe widened as engines widen roughness mips when they import a normal map.",
-      .paper = "Engines' importers (README); our own constant by default",
-      .options = {named_in_shaders(
-                      word_option("preset", {preset_names.begin(), preset_names.end()},
-                                  "Whose formula: engines', or `fit`, the constant that is closest to the true "
-                                  "distribution of normals by roughness and distribution, or `free`."),
-                      "bake"),
-                  named_in_shaders(number_option("constant", Formula{}.constant, 0.0, 8.0,
-                                                 "Of preset=free: alpha^2 + min(constant / kappa, cap)."),
-                                   "bake_constant"),
-                  named_in_shaders(number_option("cap", Formula{}.cap, 0.0, 1.0,
-                                                 "Of preset=free: the most that is added to alpha^2."),
-                                   "bake_cap"),
-                  storage_option()},
-      .honours = map_effects_but({})};
-};
+std::optional<std::vector<Image>> roughness_mips(const Material& material, const Options& options) {
+  if (!material.normal_map) return {};
+  const Formula formula = formula_of(options);
+  const Image rough = roughness_map_of(material);
+  const std::vector<Image> spread = spread_chain(normal_map_of(material), formula.preset);
+  const int width = std::max(rough.width, spread.front().width), height = std::max(rough.height, spread.front().height);
+  const auto fine_spread = extended_chain(spread, width, height);
+  const auto fine_rough = extended_chain(mip_chain(rough), width, height);
+  require_one_map(material, fine_spread && fine_rough);
+  return joined_chain(formula, material, *fine_rough, *fine_spread);
+}
 
 }  // namespace
 
 const Method& roughness_bake_method() {
-  static const RoughnessBake method;
+  static const Method method{
+      .info =
+          {.name = "roughness_bake",
+           .summary =
+               "The mean normal under a lobe widened as engines widen roughness mips when they import a normal map.",
+           .paper = "Engines' importers (README); our own constant by default",
+           .options = {named_in_shaders(
+                           word_option("preset", {preset_names.begin(), preset_names.end()},
+                                       "Whose formula: engines', or `fit`, the constant that is closest to the true "
+                                       "distribution of normals by roughness and distribution, or `free`."),
+                           "bake"),
+                       named_in_shaders(number_option("constant", Formula{}.constant, 0.0, 8.0,
+                                                      "Of preset=free: alpha^2 + min(constant / kappa, cap)."),
+                                        "bake_constant"),
+                       named_in_shaders(number_option("cap", Formula{}.cap, 0.0, 1.0,
+                                                      "Of preset=free: the most that is added to alpha^2."),
+                                        "bake_cap"),
+                       storage_option()},
+           .honours = map_effects_but({})},
+      .precompute = precompute,
+      .shader = module_of(roughness_bake_glsl, "roughness_bake.glsl"),
+      .roughness_mips = roughness_mips};
   return method;
 }
 

@@ -28,12 +28,12 @@ using namespace roughness_bake;
 std::vector<glm::vec4> widened_in_glsl(std::string_view preset, NormalDistribution distribution,
                                        std::span<const std::array<glm::vec4, 3>> inputs) {
   (void)shared_context();
-  const Options options(roughness_bake_method().info().options, {{"preset", std::string(preset)}}, "roughness_bake");
+  const Options options(roughness_bake_method().info.options, {{"preset", std::string(preset)}}, "roughness_bake");
   ShaderVariant variant;
   variant.brdf.distribution = distribution;
   const std::string text =
       "const float option_bake_constant = 2.0;\nconst float option_bake_cap = 1.0;\nvec4 lobe_cutoff;\n" +
-      shared_functions(shader_flags(variant, options), roughness_bake_method().shader());
+      shared_functions(shader_flags(variant, options), roughness_bake_method().shader);
   return evaluate_glsl(text, "return vec4(widened(a.x, b.x));", inputs);
 }
 
@@ -110,7 +110,7 @@ TEST(RoughnessBake, EveryPresetDrawsAPictureOfItsOwn) {
 }
 
 TEST(RoughnessBake, RefusesAConstantThatIsNotThePresets) {
-  const Options options(roughness_bake_method().info().options, {{"preset", "godot"}, {"constant", "1"}}, "x");
+  const Options options(roughness_bake_method().info.options, {{"preset", "godot"}, {"constant", "1"}}, "x");
   const Material material = bumpy_scene(NormalDistribution::ggx).materials[0];
   EXPECT_THROW((void)roughness_bake_method().precompute(material, options, {}, no_progress), Error);
 }

@@ -9,9 +9,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts specular_aa_glsl;
-}
 
 namespace {
 
@@ -45,52 +43,44 @@ std::vector<std::string> bakes() {
   return words;
 }
 
-class SpecularAa final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    const auto [bake, storage] = settings_of(options);
-    if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
-    Prefiltered out = bake_mean_normal(material, storage, effects);
-    append(out.textures, roughness_bake::bake_mean_roughness(material, storage, effects).textures);
-    return out;
-  }
-
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::specular_aa_glsl, "specular_aa.glsl");
-  }
-
- private:
-  MethodInfo info_{
-      .name = "specular_aa",
-      .summary = "The mean normal under a lobe widened by how normals change over the screen, as engines do it.",
-      .paper = "Tokuyoshi and Kaplanyan 2019, 2021, and engines' forms of it (README)",
-      .options = {word_option("preset",
-                              {"filament", "unity", "o3de", "godot", "bevy", "unreal", "three", "babylon",
-                               "tokuyoshi_kaplanyan_2019", "tokuyoshi_kaplanyan_2021", "free"},
-                              "Whose formula: an engine's, a paper's, or `free`."),
-                  number_option("constant", default_constant, 0.0, 4.0,
-                                "Of preset=free: alpha^2 + min(constant S, cap), S the sum of the normal's squared "
-                                "derivatives."),
-                  number_option("cap", default_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
-                  word_option("normal", {"own", "geometric", "shading"},
-                              "Which normal's derivatives: as the preset has it (`free`: geometric), the mesh's, or "
-                              "the one with the normal map's mean."),
-                  word_option(
-                      "bake", bakes(),
-                      "What the roughness mips already contain: nothing, or what roughness_bake with this preset "
-                      "bakes."),
-                  storage_option()},
-      .honours = map_effects_but({}),
-      .screen_derivatives = true};
-};
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  const auto [bake, storage] = settings_of(options);
+  if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
+  Prefiltered out = bake_mean_normal(material, storage, effects);
+  append(out.textures, roughness_bake::bake_mean_roughness(material, storage, effects).textures);
+  return out;
+}
 
 }  // namespace
 
 const Method& specular_aa_method() {
-  static const SpecularAa method;
+  static const Method method{
+      .info = {.name = "specular_aa",
+               .summary =
+                   "The mean normal under a lobe widened by how normals change over the screen, as engines do it.",
+               .paper = "Tokuyoshi and Kaplanyan 2019, 2021, and engines' forms of it (README)",
+               .options =
+                   {word_option("preset",
+                                {"filament", "unity", "o3de", "godot", "bevy", "unreal", "three", "babylon",
+                                 "tokuyoshi_kaplanyan_2019", "tokuyoshi_kaplanyan_2021", "free"},
+                                "Whose formula: an engine's, a paper's, or `free`."),
+                    number_option("constant", default_constant, 0.0, 4.0,
+                                  "Of preset=free: alpha^2 + min(constant S, cap), S the sum of the normal's squared "
+                                  "derivatives."),
+                    number_option("cap", default_cap, 0.0, 1.0, "Of preset=free: the most that is added to alpha^2."),
+                    word_option("normal", {"own", "geometric", "shading"},
+                                "Which normal's derivatives: as the preset has it (`free`: geometric), the mesh's, or "
+                                "the one with the normal map's mean."),
+                    word_option(
+                        "bake", bakes(),
+                        "What the roughness mips already contain: nothing, or what roughness_bake with this preset "
+                        "bakes."),
+                    storage_option()},
+               .honours = map_effects_but({}),
+               .screen_derivatives = true},
+      .precompute = precompute,
+      .shader = module_of(specular_aa_glsl, "specular_aa.glsl")};
   return method;
 }
 

@@ -30,11 +30,11 @@ using Inputs = std::vector<std::array<glm::vec4, 3>>;
 std::vector<glm::vec4> in_glsl(std::string_view preset, NormalDistribution distribution, const std::string& body,
                                const Inputs& inputs) {
   (void)shared_context();
-  const Options options(specular_aa_method().info().options, {{"preset", std::string(preset)}}, "specular_aa");
+  const Options options(specular_aa_method().info.options, {{"preset", std::string(preset)}}, "specular_aa");
   ShaderVariant variant;
   variant.brdf.distribution = distribution;
   const std::string text = "const float option_constant = 0.3;\nconst float option_cap = 0.04;\nvec4 lobe_cutoff;\n" +
-                           shared_functions(shader_flags(variant, options), specular_aa_method().shader());
+                           shared_functions(shader_flags(variant, options), specular_aa_method().shader);
   return evaluate_glsl(text, body, inputs);
 }
 
@@ -63,7 +63,7 @@ TEST(SpecularAa, ModuleHasTheFormulasOfThePresets) {
 }
 
 TEST(SpecularAa, HasTheSamePresetsAsTheFormulas) {
-  const std::vector<OptionSpec>& options = specular_aa_method().info().options;
+  const std::vector<OptionSpec>& options = specular_aa_method().info.options;
   const auto preset = std::ranges::find(options, "preset", &OptionSpec::name);
   ASSERT_NE(preset, options.end());
   EXPECT_TRUE(std::ranges::equal(preset->choices, preset_names));
@@ -268,7 +268,7 @@ TEST(SpecularAa, CountsTheMapsOwnSpreadOnTopOfTheBake) {
 }
 
 TEST(SpecularAa, RefusesAConstantThatIsNotThePresets) {
-  const Options options(specular_aa_method().info().options, {{"preset", "godot"}, {"constant", "1"}}, "x");
+  const Options options(specular_aa_method().info.options, {{"preset", "godot"}, {"constant", "1"}}, "x");
   const Material material = bumpy_scene().materials[0];
   EXPECT_THROW((void)specular_aa_method().precompute(material, options, {}, no_progress), Error);
 }

@@ -122,7 +122,7 @@ TEST(TanGmmFull, FitsAStreakThatTwoRoundOnesDoNot) {
 
 TEST(TanGmmFull, KnowsOneLobeAFacet) {
   const Material material = streaked_material(streak({0.0, 0.0}), NormalDistribution::ggx, 0.2F);
-  const Options options(tan_gmm_method().info().options, {{"covariance", "full"}}, "tan_gmm");
+  const Options options(tan_gmm_method().info.options, {{"covariance", "full"}}, "tan_gmm");
   EffectSet effects;
   effects.set(static_cast<std::size_t>(Effect::normal_variation));
   effects.set(static_cast<std::size_t>(Effect::multi_lobe));

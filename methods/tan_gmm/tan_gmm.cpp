@@ -11,9 +11,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts tan_gmm_glsl;
-}
 
 namespace {
 
@@ -73,52 +71,38 @@ Settings settings_of(const Options& options) {
           .storage = parse_storage(options.word("storage"))};
 }
 
-class TanGmm final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    const auto [fit, moment, storage] = settings_of(options);
-    if (fit.full_covariance && has(effects, Effect::multi_lobe)) {
-      throw Error(ErrorKind::usage, "tan_gmm:covariance=full", "the scene's facets have several lobes each",
-                  "use covariance=isotropic");
-    }
-    Prefiltered out;
-    if (has(effects, Effect::normal_variation)) {
-      const tan_gmm::NormalField normals(normal_map_of(material));  // and the decoded map is freed
-      tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit, moment, progress);
-      const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
-      out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
-    }
-    append(out.textures, bake_lobe_variance(material, storage, effects).textures);
-    return out;
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  const auto [fit, moment, storage] = settings_of(options);
+  if (fit.full_covariance && has(effects, Effect::multi_lobe)) {
+    throw Error(ErrorKind::usage, "tan_gmm:covariance=full", "the scene's facets have several lobes each",
+                "use covariance=isotropic");
   }
-
-  [[nodiscard]] int lobe_count(const Options& options) const override {
-    return static_cast<int>(settings_of(options).fit.components);
+  Prefiltered out;
+  if (has(effects, Effect::normal_variation)) {
+    const tan_gmm::NormalField normals(normal_map_of(material));  // and the decoded map is freed
+    tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit, moment, progress);
+    const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
+    out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
   }
-
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}});
-  }
-
- private:
-  MethodInfo info_{
-      .name = "tan_gmm",
-      .summary =
-          "A mixture of Gaussians over the normals, its components aligned between texels so that "
-          "the texture filter blends them.",
-      .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
-      .options = option_table(),
-      .honours = map_effects_but({Effect::normal_layers}),
-      .slow_precompute = true};
-};
+  append(out.textures, bake_lobe_variance(material, storage, effects).textures);
+  return out;
+}
 
 }  // namespace
 
 const Method& tan_gmm_method() {
-  static const TanGmm method;
+  static const Method method{
+      .info = {.name = "tan_gmm",
+               .summary = "A mixture of Gaussians over the normals, its components aligned between texels so that "
+                          "the texture filter blends them.",
+               .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
+               .options = option_table(),
+               .honours = map_effects_but({Effect::normal_layers}),
+               .slow_precompute = true},
+      .precompute = precompute,
+      .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}}),
+      .lobe_count = [](const Options& options) { return static_cast<int>(settings_of(options).fit.components); }};
   return method;
 }
 

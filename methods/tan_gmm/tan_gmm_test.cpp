@@ -40,7 +40,7 @@ std::vector<glm::vec4> probed(const PrefilteredTexture& mixture, const Given& gi
   Given all = given;
   all.try_emplace("lobe", "gaussian");
   all["n"] = std::to_string(mixture.layers);
-  const Options options(tan_gmm_method().info().options, all, "tan_gmm");
+  const Options options(tan_gmm_method().info.options, all, "tan_gmm");
   ShaderVariant variant;
   variant.brdf = brdf;
   for (const Effect effect : {Effect::normal_variation, Effect::diffuse})
@@ -53,7 +53,7 @@ std::vector<glm::vec4> probed(const PrefilteredTexture& mixture, const Given& gi
   const ShaderFlags flags = shader_flags(variant, options, {.textures = {mixture}, .scalars = {}});
   const std::string text =
       "layout(binding = 0) uniform sampler2DArray tan_gmm_mixture;\nconst float option_n = " + all["n"] + ".0;\n" +
-      "vec4 lobe_cutoff;\n" + shared_functions(flags, tan_gmm_method().shader());
+      "vec4 lobe_cutoff;\n" + shared_functions(flags, tan_gmm_method().shader);
   const std::string body =
       "lobe_cutoff = vec4(a.w);\nFootprint p = Footprint(a.xy, vec2(a.z, 0.0), vec2(0.0, a.z));\n"
       "Effective e = effective(Footprints(p, p, p));\n" +
@@ -82,7 +82,7 @@ PrefilteredTexture baked(const Image& normals, const Given& given = {}) {
   const Material material = square_scene(normals, {.brdf = blinn_phong}).materials[0];
   EffectSet effects;
   effects.set(static_cast<std::size_t>(Effect::normal_variation));
-  const Options options(tan_gmm_method().info().options, given, "tan_gmm");
+  const Options options(tan_gmm_method().info.options, given, "tan_gmm");
   return tan_gmm_method().precompute(material, options, effects, no_progress).textures.at(0);
 }
 

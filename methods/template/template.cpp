@@ -11,9 +11,7 @@
 namespace footprint {
 
 // The texts of this folder, which footprint_add_method embeds under this name.
-namespace embedded {
 extern const EmbeddedTexts template_glsl;
-}
 
 namespace {
 
@@ -37,38 +35,30 @@ std::vector<Image> normal_and_spread(const Material& material) {
   return chain;
 }
 
-class IndependentTexels final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    Prefiltered out;
-    out.scalars["template_lobe"] = static_cast<float>(mean_lobe(material).parameter);
-    if (has(effects, Effect::normal_variation)) {
-      out.textures.push_back(
-          make_texture("template_normal", normal_and_spread(material), Storage::fp32, normal_coordinates(material)));
-    }
-    return out;
+Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  Prefiltered out;
+  out.scalars["template_lobe"] = static_cast<float>(mean_lobe(material).parameter);
+  if (has(effects, Effect::normal_variation)) {
+    out.textures.push_back(
+        make_texture("template_normal", normal_and_spread(material), Storage::fp32, normal_coordinates(material)));
   }
-
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::template_glsl, "template.glsl"); }
-
- private:
-  MethodInfo info_{
-      .name = "template",
-      .summary = "One lobe about the mean normal, widened as if texels were independent.",
-      .paper = "none: an example to copy",
-      .options = {number_option("share", 1.0, 0.0, 4.0,
-                                "Factor on the spread that is added to the lobe's slope variance per axis; "
-                                "0 leaves the base lobe as it is.")},
-      .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation})};
-};
+  return out;
+}
 
 }  // namespace
 
 const Method& template_method() {
-  static const IndependentTexels method;
+  static const Method method{
+      .info = {.name = "template",
+               .summary = "One lobe about the mean normal, widened as if texels were independent.",
+               .paper = "none: an example to copy",
+               .options = {number_option("share", 1.0, 0.0, 4.0,
+                                         "Factor on the spread that is added to the lobe's slope variance per axis; "
+                                         "0 leaves the base lobe as it is.")},
+               .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation})},
+      .precompute = precompute,
+      .shader = module_of(template_glsl, "template.glsl")};
   return method;
 }
 

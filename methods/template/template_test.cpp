@@ -19,7 +19,7 @@ namespace {
 constexpr BaseBrdf blinn_phong{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
 
 Prefiltered baked(const Material& material) {
-  const Options options(template_method().info().options, {}, "template");
+  const Options options(template_method().info.options, {}, "template");
   return template_method().precompute(material, options, EffectSet{}.set(), no_progress);
 }
 
@@ -89,7 +89,7 @@ TEST(Template, TakesTheMeanRoughnessWhereItVaries) {
   stripes->texels = {0.2F, 0.0F, 0.6F, 0.0F};
   material.metallic_roughness_map = TextureMap{.name = "stripes", .image = stripes, .coordinates = {}};
   EXPECT_NEAR(baked(material).scalars.at("template_lobe"), 0.4F * 0.4F, 1e-6F);
-  EXPECT_FALSE(has(template_method().info().honours, Effect::roughness_variation));
+  EXPECT_FALSE(has(template_method().info.honours, Effect::roughness_variation));
 }
 
 }  // namespace

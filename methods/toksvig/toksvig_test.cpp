@@ -37,7 +37,7 @@ struct Recovered {
 
 Recovered recovered(const Material& material, const std::map<std::string, std::string>& given = {}) {
   const gl::Context& context = shared_context();
-  const Options options(toksvig_method().info().options, given, "toksvig");
+  const Options options(toksvig_method().info.options, given, "toksvig");
   ShaderVariant variant;
   variant.brdf = blinn_phong;
   variant.effects.set(static_cast<std::size_t>(Effect::normal_variation));
@@ -50,7 +50,7 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   const std::string text =
       "layout(binding = 0) uniform sampler2D mean_normal;\nconst float option_spread = 1.0;\n"
       "vec4 lobe_cutoff;\n" +
-      shared_functions(flags, toksvig_method().shader());
+      shared_functions(flags, toksvig_method().shader);
   const std::string body =
       "lobe_cutoff = vec4(a.x);\nFootprint p = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
       "Effective e = effective(Footprints(p, p, p));\nreturn b.x == 0.0 ? vec4(e.facets.lobe, e.consistency, 0, 0) : "

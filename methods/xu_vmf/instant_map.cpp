@@ -12,9 +12,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts xu_vmf_glsl;
-}
 
 namespace xu_vmf {
 namespace {
@@ -120,7 +118,7 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
       no_vertices_(empty_vertex_array()),
       joined_(framebuffer(guards_ ? 2 : 1)) {
   const auto pass = [&](std::string_view file, bool guard, bool camera, std::string_view constants = {}) {
-    const ShaderModule module = module_of(embedded::xu_vmf_glsl, file, {{"guard", guard}, {"camera", camera}});
+    const ShaderModule module = module_of(xu_vmf_glsl, file, {{"guard", guard}, {"camera", camera}});
     return frame_build_shader(variant, module, options, constants);
   };
   const auto program = [](std::string_view title, const std::string& vertices, const ShaderText& fragments) {
@@ -149,7 +147,7 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
                                 pass("xu_vmf_join.glsl", guards_, true)));
 }
 
-std::optional<BuildInputs> InstantMap::kept_until_change_of() const {
+std::optional<BuildInputs> InstantMap::valid_until_change_of() const {
   if (settings_.always_built) return {};
   const bool camera = join_surface_.has_value();
   return BuildInputs{.camera = camera, .geometry = camera, .materials = true, .lights = false};

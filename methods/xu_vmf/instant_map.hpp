@@ -73,7 +73,7 @@ class InstantMap final : public FrameBuild {
 
   void run(const FrameBuildJob& job) const override;
   [[nodiscard]] bool looks_from_view() const override { return join_surface_.has_value(); }
-  [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override;
+  [[nodiscard]] std::optional<BuildInputs> valid_until_change_of() const override;
 
  private:
   // A framebuffer with `layers` colour attachments, and the program that draws a level of as many layers from the finer

@@ -190,7 +190,7 @@ TEST(XuFrameBuild, JoinsMapsOfDifferentSizesAndSaysWhereItCannot) {
 }
 
 TEST(XuFrameBuild, IsNotThereWhereNothingVaries) {
-  const Options options(xu_vmf_method().info().options, {}, "xu_vmf");
+  const Options options(xu_vmf_method().info.options, {}, "xu_vmf");
   const Material material = blinn_phong_square(constant_normals(4, 4, {0, 0, 1}), 100).materials[0];
   EXPECT_EQ(xu_vmf_method().frame_build({}, options), nullptr);
   EXPECT_TRUE(xu_vmf_method().precompute(material, options, {}, no_progress).textures.empty());
@@ -233,7 +233,7 @@ BuiltBytes built_bytes(const Prefiltered& baked) {
 RecordedDraws passes_of(const Scene& scene, const Words& words, Prefiltered& baked) {
   const EffectSet effects = effects_on(derive_effects(scene));
   GpuScene gpu_scene(shared_context().info(), scene, effects);
-  const Options options(xu_vmf_method().info().options, words, "xu_vmf");
+  const Options options(xu_vmf_method().info.options, words, "xu_vmf");
   const BakedMethod method =
       bake(xu_vmf_method(), {.text = "xu_vmf", .name = "xu_vmf", .options = words}, scene, effects, no_progress);
   const GpuMethod gpu(gpu_scene, method);

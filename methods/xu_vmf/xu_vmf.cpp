@@ -14,9 +14,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts xu_vmf_glsl;
-}
 
 namespace {
 
@@ -151,72 +149,62 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_v
   return out;
 }
 
-class XuVmf final : public Method {
- public:
-  /// The frame build filters. Therefore the bake consists of its inputs and the coordinates of its map.
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& /*progress*/) const override {
-    Inputs inputs(material, effects);
-    if (!inputs.anything()) return {};
-    return in_tangent_space(std::move(inputs), material, xu_vmf::settings_of(options), effects);
+/// The frame build filters. Therefore the bake consists of its inputs and the coordinates of its map.
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& /*progress*/) {
+  Inputs inputs(material, effects);
+  if (!inputs.anything()) return {};
+  return in_tangent_space(std::move(inputs), material, xu_vmf::settings_of(options), effects);
+}
+
+Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& options, const EffectSet& effects,
+                          const Progress& progress) {
+  const Material& material = scene.materials.at(index);
+  const xu_vmf::Settings settings = xu_vmf::settings_of(options);
+  Inputs inputs(material, effects);
+  if (!settings.camera_space || !inputs.anything()) return precompute(material, options, effects, progress);
+  xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
+  // In a scene with maps, the single texel of a material without maps would show one normal of the whole mesh.
+  if (inputs.size() == glm::ivec2(1)) {
+    layout.unique = false;
+    layout.note.clear();
   }
-
-  [[nodiscard]] Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& options,
-                                          const EffectSet& effects, const Progress& progress) const override {
-    const Material& material = scene.materials.at(index);
-    const xu_vmf::Settings settings = xu_vmf::settings_of(options);
-    Inputs inputs(material, effects);
-    if (!settings.camera_space || !inputs.anything()) return precompute(material, options, effects, progress);
-    xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
-    // In a scene with maps, the single texel of a material without maps would show one normal of the whole mesh.
-    if (inputs.size() == glm::ivec2(1)) {
-      layout.unique = false;
-      layout.note.clear();
-    }
-    Prefiltered out;
-    if (layout.unique) {
-      TextureCoordinates coordinates;
-      coordinates.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
-      declare_maps(out, layout.size, coordinates, layers_of(material, effects), settings, effects);
-      add_inputs(out, inputs, material, settings);
-    } else {
-      out = in_tangent_space(std::move(inputs), material, settings, effects);
-    }
-    if (!layout.note.empty()) out.notes.push_back(std::move(layout.note));
-    out.scalars.emplace(xu_vmf::camera_space_name, layout.unique ? 1.0F : 0.0F);
-    out.surface_coordinates = std::move(layout.coordinates);
-    return out;
+  Prefiltered out;
+  if (layout.unique) {
+    TextureCoordinates coordinates;
+    coordinates.wrap = {Wrap::clamp_to_edge, Wrap::clamp_to_edge};
+    declare_maps(out, layout.size, coordinates, layers_of(material, effects), settings, effects);
+    add_inputs(out, inputs, material, settings);
+  } else {
+    out = in_tangent_space(std::move(inputs), material, settings, effects);
   }
+  if (!layout.note.empty()) out.notes.push_back(std::move(layout.note));
+  out.scalars.emplace(xu_vmf::camera_space_name, layout.unique ? 1.0F : 0.0F);
+  out.surface_coordinates = std::move(layout.coordinates);
+  return out;
+}
 
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant,
-                                                        const Options& options) const override {
-    const bool anything =
-        has(variant.effects, Effect::normal_variation) || has(variant.effects, Effect::roughness_variation);
-    return anything ? std::make_unique<xu_vmf::InstantMap>(variant, options) : nullptr;
-  }
-
-  [[nodiscard]] int lobe_count(const Options& options) const override {
-    return xu_vmf::settings_of(options).most_lobes;
-  }
-
-  [[nodiscard]] ShaderModule shader() const override { return module_of(embedded::xu_vmf_glsl, "xu_vmf.glsl"); }
-
- private:
-  MethodInfo info_{.name = "xu_vmf",
-                   .summary =
-                       "Lobes of base BRDF and normal map together, joined each frame and averaged by parts of "
-                       "the hemisphere.",
-                   .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
-                   .options = option_table(),
-                   .honours = map_effects_but({Effect::normal_layers})};
-};
+std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant, const Options& options) {
+  const bool anything =
+      has(variant.effects, Effect::normal_variation) || has(variant.effects, Effect::roughness_variation);
+  return anything ? std::make_unique<xu_vmf::InstantMap>(variant, options) : nullptr;
+}
 
 }  // namespace
 
 const Method& xu_vmf_method() {
-  static const XuVmf method;
+  static const Method method{
+      .info = {.name = "xu_vmf",
+               .summary = "Lobes of base BRDF and normal map together, joined each frame and averaged by parts of "
+                          "the hemisphere.",
+               .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
+               .options = option_table(),
+               .honours = map_effects_but({Effect::normal_layers})},
+      .precompute = precompute,
+      .shader = module_of(xu_vmf_glsl, "xu_vmf.glsl"),
+      .precompute_on = precompute_on,
+      .frame_build = frame_build,
+      .lobe_count = [](const Options& options) { return xu_vmf::settings_of(options).most_lobes; }};
   return method;
 }
 

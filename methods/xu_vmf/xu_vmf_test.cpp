@@ -20,7 +20,7 @@ namespace {
 
 // The conversions as a pass has them, with the table of `conversion=table`.
 std::vector<glm::vec4> converted(const std::string& body, const ProbeInputs& inputs) {
-  const Options options(xu_vmf_method().info().options, {{"conversion", "table"}}, "test");
+  const Options options(xu_vmf_method().info.options, {{"conversion", "table"}}, "test");
   ShaderVariant variant;
   variant.brdf.distribution = NormalDistribution::blinn_phong;
   const ShaderFlags flags = shader_flags(variant, options);
@@ -29,7 +29,7 @@ std::vector<glm::vec4> converted(const std::string& body, const ProbeInputs& inp
   const gl::Sampler sampler = gl::nearest_sampler(GL_REPEAT, GL_REPEAT);
   gl::api().BindTextureUnit(0, table.texture->name());
   gl::api().BindSampler(0, sampler.name());
-  ShaderModule conversions = xu_vmf_method().shader();
+  ShaderModule conversions = xu_vmf_method().shader;
   conversions.text = "//? include xu_vmf_conversion.glsl\n";
   return evaluate_glsl("layout(binding = 0) uniform sampler2D table;\n" + shared_functions(flags, conversions), body,
                        inputs);

@@ -13,9 +13,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts yan_gaussians_glsl;
-}
 
 namespace {
 
@@ -79,68 +77,60 @@ PrefilteredTexture jacobian_texture(const Elements& elements) {
   return make_texture("yan_jacobian", {std::move(image)}, Storage::fp32, {});
 }
 
-class YanGaussians final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-
-  [[nodiscard]] Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
-                                       const Progress& progress) const override {
-    Prefiltered out;
-    out.scalars["yan_lobe"] = static_cast<float>(mean_lobe(material).parameter);
-    if (!has(effects, Effect::normal_variation)) return out;
-    const std::array<Wrap, 2> wrap = normal_coordinates(material).wrap;
-    const auto share = [](Wrap along) { return along == Wrap::repeat ? 1.0F : 0.5F; };
-    const auto clamped = [](Wrap along) { return along == Wrap::clamp_to_edge ? 1.0F : 0.0F; };
-    out.scalars.insert({{"yan_share_u", share(wrap[0])},
-                        {"yan_share_v", share(wrap[1])},
-                        {"yan_clamp_u", clamped(wrap[0])},
-                        {"yan_clamp_v", clamped(wrap[1])}});
-    progress("elements", 0.0);
-    const Elements elements = make_elements(material, options.word("jacobian") == "central");
-    progress("hierarchy over positions and normals", 0.1);
-    const ElementTree tree = tree_over(elements, options.number("cutoff"));
-    progress("textures", 0.8);
-    out.scalars["yan_depth"] = static_cast<float>(tree.depth);
-    TextureCoordinates repeating = normal_coordinates(material);
-    repeating.wrap = {Wrap::repeat, Wrap::repeat};
-    out.textures.push_back(make_texture("mean_normal", mean_normal_chain(elements.normals), Storage::fp32, repeating));
-    if (!elements.jacobians.empty()) out.textures.push_back(jacobian_texture(elements));
-    out.textures.push_back(order_texture(tree));
-    out.textures.push_back(nodes_texture(tree));
-    return out;
-  }
-
-  [[nodiscard]] ShaderModule shader() const override {
-    return module_of(embedded::yan_gaussians_glsl, "yan_gaussians.glsl");
-  }
-
- private:
-  MethodInfo info_{
-      .name = "yan_gaussians",
-      .summary = "A 4D Gaussian of position and normal for every texel, summed by a hierarchy under each pixel.",
-      .paper =
-          "Yan, Hasan, Marschner, Ramamoorthi 2016, Position-Normal Distributions for Efficient Rendering of "
-          "Specular Microstructure",
-      .options = {word_option("roughness", {"lobe", "intrinsic"},
-                              "What an element's normals reflect with: the base lobe; or, as in the paper, a Gaussian "
-                              "of deviation sigma_r on the disc and nothing of the base lobe."),
-                  number_option("sigma_r", 0.005, 1e-4, 1.0,
-                                "The intrinsic roughness: standard deviation along each axis of the disc, with "
-                                "roughness=intrinsic."),
-                  word_option("jacobian", {"central", "none"},
-                              "How normals change across an element: by central differences of its neighbours, as in "
-                              "the paper; or not at all, as a map of steps has it."),
-                  number_option("cutoff", 5.0, 2.0, 8.0,
-                                "Standard deviations beyond which footprint, elements and lobes are cut off.")},
-      .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::environment_light}),
-      .slow_precompute = true,
-      .slow_frame = true};
-};
+Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
+                       const Progress& progress) {
+  Prefiltered out;
+  out.scalars["yan_lobe"] = static_cast<float>(mean_lobe(material).parameter);
+  if (!has(effects, Effect::normal_variation)) return out;
+  const std::array<Wrap, 2> wrap = normal_coordinates(material).wrap;
+  const auto share = [](Wrap along) { return along == Wrap::repeat ? 1.0F : 0.5F; };
+  const auto clamped = [](Wrap along) { return along == Wrap::clamp_to_edge ? 1.0F : 0.0F; };
+  out.scalars.insert({{"yan_share_u", share(wrap[0])},
+                      {"yan_share_v", share(wrap[1])},
+                      {"yan_clamp_u", clamped(wrap[0])},
+                      {"yan_clamp_v", clamped(wrap[1])}});
+  progress("elements", 0.0);
+  const Elements elements = make_elements(material, options.word("jacobian") == "central");
+  progress("hierarchy over positions and normals", 0.1);
+  const ElementTree tree = tree_over(elements, options.number("cutoff"));
+  progress("textures", 0.8);
+  out.scalars["yan_depth"] = static_cast<float>(tree.depth);
+  TextureCoordinates repeating = normal_coordinates(material);
+  repeating.wrap = {Wrap::repeat, Wrap::repeat};
+  out.textures.push_back(make_texture("mean_normal", mean_normal_chain(elements.normals), Storage::fp32, repeating));
+  if (!elements.jacobians.empty()) out.textures.push_back(jacobian_texture(elements));
+  out.textures.push_back(order_texture(tree));
+  out.textures.push_back(nodes_texture(tree));
+  return out;
+}
 
 }  // namespace
 
 const Method& yan_gaussians_method() {
-  static const YanGaussians method;
+  static const Method method{
+      .info =
+          {.name = "yan_gaussians",
+           .summary = "A 4D Gaussian of position and normal for every texel, summed by a hierarchy under each pixel.",
+           .paper = "Yan, Hasan, Marschner, Ramamoorthi 2016, Position-Normal Distributions for Efficient Rendering of "
+                    "Specular Microstructure",
+           .options = {word_option(
+                           "roughness", {"lobe", "intrinsic"},
+                           "What an element's normals reflect with: the base lobe; or, as in the paper, a Gaussian "
+                           "of deviation sigma_r on the disc and nothing of the base lobe."),
+                       number_option("sigma_r", 0.005, 1e-4, 1.0,
+                                     "The intrinsic roughness: standard deviation along each axis of the disc, with "
+                                     "roughness=intrinsic."),
+                       word_option(
+                           "jacobian", {"central", "none"},
+                           "How normals change across an element: by central differences of its neighbours, as in "
+                           "the paper; or not at all, as a map of steps has it."),
+                       number_option("cutoff", 5.0, 2.0, 8.0,
+                                     "Standard deviations beyond which footprint, elements and lobes are cut off.")},
+           .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::environment_light}),
+           .slow_precompute = true,
+           .slow_frame = true},
+      .precompute = precompute,
+      .shader = module_of(yan_gaussians_glsl, "yan_gaussians.glsl")};
   return method;
 }
 

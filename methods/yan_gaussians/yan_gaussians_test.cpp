@@ -350,7 +350,7 @@ TEST(YanGaussians, TakeTheBytesThatTheReadmeStates) {
   const Material material = material_of(waves(512, 512));
   const EffectSet effects = ProbedMethod::default_effects();
   const auto bytes = [&](const Words& words) {
-    const Options options(yan_gaussians_method().info().options, words, "test");
+    const Options options(yan_gaussians_method().info.options, words, "test");
     return static_cast<double>(byte_count(yan_gaussians_method().precompute(material, options, effects, no_progress))) /
            (512.0 * 512.0);
   };

@@ -14,20 +14,17 @@
 
 namespace footprint {
 // Found by the archives of core/bytes.hpp. Structured bindings make a new member a compile error here.
-template <class Archive>
-void fields(Archive& archive, TextureLevel& level) {
+void fields(auto& archive, TextureLevel& level) {
   auto& [width, height, bytes] = level;
   archive(width, height, bytes);
 }
 
-template <class Archive>
-void fields(Archive& archive, PrefilteredTexture& texture) {
+void fields(auto& archive, PrefilteredTexture& texture) {
   auto& [name, storage, channels, layers, filter, coordinates, levels, built] = texture;
   archive(name, storage, channels, layers, filter, coordinates, levels, built);
 }
 
-template <class Archive>
-void fields(Archive& archive, Prefiltered& prefiltered) {
+void fields(auto& archive, Prefiltered& prefiltered) {
   auto& [textures, scalars, vectors, notes, surface_coordinates] = prefiltered;
   archive(textures, scalars, vectors, notes, surface_coordinates);
 }

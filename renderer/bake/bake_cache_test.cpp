@@ -98,35 +98,33 @@ TEST(BakeCache, TheKeyFollowsEverythingThatABakeDependsOn) {
 }
 
 // A method that counts its precomputes.
-class Counting final : public Method {
- public:
-  explicit Counting(bool slow) { info_.slow_precompute = slow; }
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-  [[nodiscard]] Prefiltered precompute(const Material& /*material*/, const Options& /*options*/,
-                                       const EffectSet& /*effects*/, const Progress& /*progress*/) const override {
-    ++count;
-    return example();
-  }
-  [[nodiscard]] ShaderModule shader() const override { return {}; }
-  mutable int count = 0;
+struct Counting {
+  explicit Counting(bool slow) { method.info.slow_precompute = slow; }
 
- private:
-  MethodInfo info_{.name = "counting", .summary = {}, .paper = {}, .options = {}, .honours = {}};
+  int count = 0;
+  Method method{.info = {.name = "counting", .summary = {}, .paper = {}, .options = {}, .honours = {}},
+                .precompute =
+                    [this](const Material& /*material*/, const Options& /*options*/, const EffectSet& /*effects*/,
+                           const Progress& /*progress*/) {
+                      ++count;
+                      return example();
+                    },
+                .shader = {}};
 };
 
 TEST(Bake, SlowPrecomputeIsDoneOnce) {
   const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
-  const Counting slow(true);
+  Counting slow(true);
   const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
-  const BakedMethod first = bake(slow, spec, scene, {}, no_progress, &cache);
-  const BakedMethod second = bake(slow, spec, scene, {}, no_progress, &cache);
+  const BakedMethod first = bake(slow.method, spec, scene, {}, no_progress, &cache);
+  const BakedMethod second = bake(slow.method, spec, scene, {}, no_progress, &cache);
   EXPECT_EQ(slow.count, 1);
   EXPECT_FALSE(first.cached);
   EXPECT_TRUE(second.cached);
   EXPECT_EQ(first.materials, second.materials);
   EXPECT_EQ(first.bytes, second.bytes);
-  const BakedMethod without = bake(slow, spec, scene, {}, no_progress);
+  const BakedMethod without = bake(slow.method, spec, scene, {}, no_progress);
   EXPECT_EQ(slow.count, 2);
   EXPECT_FALSE(without.cached);
 }
@@ -134,10 +132,10 @@ TEST(Bake, SlowPrecomputeIsDoneOnce) {
 TEST(Bake, FastPrecomputeIsNotCached) {
   const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
-  const Counting fast(false);
+  Counting fast(false);
   const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
-  (void)bake(fast, spec, scene, {}, no_progress, &cache);
-  EXPECT_FALSE(bake(fast, spec, scene, {}, no_progress, &cache).cached);
+  (void)bake(fast.method, spec, scene, {}, no_progress, &cache);
+  EXPECT_FALSE(bake(fast.method, spec, scene, {}, no_progress, &cache).cached);
   EXPECT_EQ(fast.count, 2);
 }
 

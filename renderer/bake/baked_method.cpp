@@ -31,15 +31,21 @@ struct Outcome {
   bool from_disk;
 };
 
+Prefiltered precomputed(const Method& method, const Scene& scene, std::size_t index, const Options& options,
+                        const EffectSet& effects, const Progress& progress) {
+  return method.precompute_on ? method.precompute_on(scene, index, options, effects, progress)
+                              : method.precompute(scene.materials.at(index), options, effects, progress);
+}
+
 // Reads one material from the cache, or bakes it and caches it if that is slow.
 Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
                   const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
-  if (cache == nullptr || !method.info().slow_precompute)
-    return {method.precompute_on(scene, index, options, effects, progress), false};
+  if (cache == nullptr || !method.info.slow_precompute)
+    return {precomputed(method, scene, index, options, effects, progress), false};
   const Material& material = scene.materials[index];
-  const std::string key = cache->key(method.info().name, material, options, effects);
+  const std::string key = cache->key(method.info.name, material, options, effects);
   if (std::optional<Prefiltered> cached = cache->find(key)) return {*std::move(cached), true};
-  Outcome outcome{method.precompute_on(scene, index, options, effects, progress), false};
+  Outcome outcome{precomputed(method, scene, index, options, effects, progress), false};
   cache->store(key, outcome.prefiltered);
   return outcome;
 }
@@ -81,7 +87,7 @@ std::optional<std::string> storage_range_note(const Material& material, const Me
 }
 
 Options options_of(const Method& method, const MethodSpec& spec) {
-  return {method.info().options, spec.options, "method " + spec.name};
+  return {method.info.options, spec.options, "method " + spec.name};
 }
 
 BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
@@ -99,7 +105,7 @@ BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
                     const BakeCache* cache, const MaterialBaked& when_baked) {
   const Method& method = *baked.method;
-  baked.cached = cache != nullptr && method.info().slow_precompute;
+  baked.cached = cache != nullptr && method.info.slow_precompute;
   const auto count = static_cast<double>(scene.materials.size());
   std::set<std::uint64_t> known;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -110,8 +116,8 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     part(fmt::format("{}: {}", baked.spec.text, material.name), 0.0);
     try {
       auto [prefiltered, from_disk] =
-          prefilter(method, scene, i, baked.options, effects & method.info().honours, part, cache);
-      if (auto note = storage_range_note(material, method.info(), baked.options, effects & method.info().honours))
+          prefilter(method, scene, i, baked.options, effects & method.info.honours, part, cache);
+      if (auto note = storage_range_note(material, method.info, baked.options, effects & method.info.honours))
         prefiltered.notes.push_back(*std::move(note));
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;

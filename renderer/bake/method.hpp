@@ -63,7 +63,7 @@ class FrameBuild {
   [[nodiscard]] virtual bool looks_from_view() const { return true; }
 
   /// The inputs whose change invalidates a build. None: it runs for every frame.
-  [[nodiscard]] virtual std::optional<BuildInputs> kept_until_change_of() const { return {}; }
+  [[nodiscard]] virtual std::optional<BuildInputs> valid_until_change_of() const { return {}; }
 };
 
 struct ShaderVariant;
@@ -94,52 +94,42 @@ struct MethodInfo {
 };
 
 /// A prefiltering method: a pure precompute, a GLSL module and an optional frame build (docs/adding-a-method.md).
-/// Stateless.
-class Method {
- public:
-  Method() = default;
-  Method(const Method&) = delete;
-  Method& operator=(const Method&) = delete;
-  virtual ~Method() = default;
-
-  [[nodiscard]] virtual const MethodInfo& info() const = 0;
+/// Its functions have no state. Each method exists once and is known by its address.
+struct Method {
+  MethodInfo info;
 
   /// Bakes one material. Pure: equal arguments give equal values, at any number of threads. The textures' names,
   /// channels and storage, and the names of values, depend only on options and effects, so that one program can draw
   /// all materials of a scene.
   /// effects: of the scene; textures of effects that are off are not created.
   /// progress: called during long work; may throw Error (interrupted).
-  [[nodiscard]] virtual Prefiltered precompute(const Material& material, const Options& options,
-                                               const EffectSet& effects, const Progress& progress) const = 0;
+  std::function<Prefiltered(const Material& material, const Options& options, const EffectSet& effects,
+                            const Progress& progress)>
+      precompute;
 
-  /// As `precompute`, for bakes that depend on the material's triangles. The disk cache uses only the material as its
-  /// key, so a method that overrides this must not be `slow_precompute`.
-  [[nodiscard]] virtual Prefiltered precompute_on(const Scene& scene, std::size_t material, const Options& options,
-                                                  const EffectSet& effects, const Progress& progress) const {
-    return precompute(scene.materials.at(material), options, effects, progress);
-  }
+  /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md).
+  ShaderModule shader;
+
+  /// Replaces `precompute` for bakes that depend on the material's triangles, unless it is empty. The disk cache uses
+  /// only the material as its key, so a method that has it must not be `slow_precompute`.
+  std::function<Prefiltered(const Scene& scene, std::size_t material, const Options& options, const EffectSet& effects,
+                            const Progress& progress)>
+      precompute_on = {};
 
   /// The passes that are repeated each frame; null if there are none. A context is current.
   /// variant: effects that the method honours, and base BRDF, of the scene.
   /// Throws Error (machine): a pass does not compile.
-  [[nodiscard]] virtual std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& /*variant*/,
-                                                                const Options& /*options*/) const {
-    return nullptr;
-  }
+  std::function<std::unique_ptr<FrameBuild>(const ShaderVariant& variant, const Options& options)> frame_build =
+      [](const ShaderVariant& /*variant*/, const Options& /*options*/) { return std::unique_ptr<FrameBuild>(); };
 
   /// For methods that model how engines import maps: the perceptual roughness for each level of the renormalised normal
   /// map, one channel, 0 to 1. None for other methods, and without a normal map. Throws Error (usage): a roughness map
   /// of another size than the normal map.
-  [[nodiscard]] virtual std::optional<std::vector<Image>> roughness_mips(const Material& /*material*/,
-                                                                         const Options& /*options*/) const {
-    return {};
-  }
+  std::function<std::optional<std::vector<Image>>(const Material& material, const Options& options)> roughness_mips =
+      [](const Material& /*material*/, const Options& /*options*/) { return std::optional<std::vector<Image>>(); };
 
   /// Lobes of the effective NDF that the shader evaluates per pixel, with isotropic filtering.
-  [[nodiscard]] virtual int lobe_count(const Options& /*options*/) const { return 1; }
-
-  /// The GLSL module that evaluates the effective BRDF (renderer/shaders/README.md).
-  [[nodiscard]] virtual ShaderModule shader() const = 0;
+  std::function<int(const Options& options)> lobe_count = [](const Options& /*options*/) { return 1; };
 };
 
 }  // namespace footprint

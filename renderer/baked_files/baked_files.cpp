@@ -105,11 +105,11 @@ bool holds_slopes_alone(const BakedMethod& baked, std::size_t material) {
 ShaderVariant variant_of(const BakeToFiles& bake) {
   std::size_t most_lobes = 1;
   for (const Material& material : bake.scene.materials) most_lobes = std::max(most_lobes, material.lobes.size());
-  return {.effects = bake.effects & bake.baked.method->info().honours,
+  return {.effects = bake.effects & bake.baked.method->info.honours,
           .brdf = bake.scene.materials.front().brdf,
           .footprint = bake.footprint,
           .horizon_open = bake.scene.horizon == Horizon::open,
-          .screen_derivatives = bake.baked.method->info().screen_derivatives,
+          .screen_derivatives = bake.baked.method->info.screen_derivatives,
           .facet_lobes = most_lobes};
 }
 
@@ -136,7 +136,7 @@ std::string contract(const BakeToFiles& bake) {
 // wi and wo are unit vectors in the tangent frame (x tangent, y bitangent, z normal), towards the light and the viewer.
 {})",
       bake.baked.spec.text, bake.version, footprint_filter_text(bake.footprint),
-      bake.baked.method->info().screen_derivatives ? screen_contract : "");
+      bake.baked.method->info.screen_derivatives ? screen_contract : "");
 }
 
 }  // namespace
@@ -202,14 +202,14 @@ void require_files(const BakeToFiles& bake) {
     if (std::ranges::any_of(prefiltered.textures, &PrefilteredTexture::built))
       throw std::logic_error("a texture waits for its frame build");
   }
-  if (count > 0 || bake.baked.method->info().screen_derivatives) return;  // screen derivatives contain curvature too
+  if (count > 0 || bake.baked.method->info.screen_derivatives) return;  // screen derivatives contain curvature too
   throw Error(ErrorKind::usage, fmt::format("{}, method {}", bake.scene.source, bake.baked.spec.text),
               "bakes nothing: normals and roughness do not vary on any material", "give a model with a normal map");
 }
 
 std::string module_text(const BakeToFiles& bake) {
   const BakedMethod& baked = bake.baked;
-  return contract(bake) + bare_module(variant_of(bake), baked.method->shader(), baked.options, baked.materials.front());
+  return contract(bake) + bare_module(variant_of(bake), baked.method->shader, baked.options, baked.materials.front());
 }
 
 void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder) {

@@ -138,7 +138,7 @@ Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFil
   const Material& material = bake.scene.materials[index];
   const Prefiltered& prefiltered = bake.baked.materials[index];
   const EngineMaps engine = index < bake.engine.size() ? bake.engine[index] : EngineMaps();
-  const bool several_lobes = has(bake.effects & bake.baked.method->info().honours, Effect::multi_lobe);
+  const bool several_lobes = has(bake.effects & bake.baked.method->info.honours, Effect::multi_lobe);
   std::vector<std::string> notes = prefiltered.notes;
   if (!engine.missing.empty()) notes.push_back(engine.missing);
   return {{"name", material.name},
@@ -161,7 +161,7 @@ Json options_json(const Options& options) {
 }  // namespace
 
 std::string manifest_json(const BakeToFiles& bake, const BakeListing& listing) {
-  const EffectSet& honours = bake.baked.method->info().honours;
+  const EffectSet& honours = bake.baked.method->info.honours;
   Json materials = Json::array();
   for (std::size_t i = 0; i < listing.materials.size(); ++i)
     materials.push_back(material_json(bake, i, listing.materials[i]));

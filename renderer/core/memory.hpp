@@ -34,7 +34,7 @@ struct AddressSpace {
 /// Errors (machine): `bytes` exceed available_memory(). The message begins with `what`, such as "a frame of 8192 x
 /// 8192"; `hint` says how to need less.
 void require_memory(std::uint64_t bytes, std::string_view what,
-                    std::string_view hint = "ask for a smaller --size, or free memory");
+                    std::string_view hint = "give a smaller --size, or free memory");
 
 /// Checks an allocation of `bytes` for a map, mip chain or texture of width x height texels, which `what` names.
 /// Allocations below 64 MiB are not checked, because reading the limits would take longer than filling them.

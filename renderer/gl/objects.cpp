@@ -32,7 +32,7 @@ constexpr std::string_view no_memory_hint = "use smaller frames or textures, or 
 
 // For textures, whose size drivers limit even with enough memory.
 constexpr std::string_view no_texture_hint =
-    "use smaller frames or textures, a method that keeps less in one of them, or a machine with more memory: drivers "
+    "use smaller frames or textures, a method that stores less in one of them, or a machine with more memory: drivers "
     "bound what one texture takes, Mesa's llvmpipe below 2 GiB";
 
 [[noreturn]] void throw_no_memory(const std::string& place, const std::string& what, GLenum error,

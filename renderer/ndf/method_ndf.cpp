@@ -19,7 +19,7 @@ constexpr std::array<GLenum, 1> density_format{GL_R32F};
 
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const FootprintFilter& filter) {
   ShaderVariant variant;
-  variant.effects = scene.effects() & baked.method->info().honours;
+  variant.effects = scene.effects() & baked.method->info.honours;
   variant.brdf = scene.brdf();
   variant.footprint = filter;
   variant.facet_lobes = scene.facet_lobes();
@@ -29,7 +29,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
 
 gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, const FootprintFilter& filter) {
   const ShaderText density =
-      ndf_shader(variant_of(scene, baked, filter), baked.method->shader(), baked.options, baked.materials.front());
+      ndf_shader(variant_of(scene, baked, filter), baked.method->shader, baked.options, baked.materials.front());
   return {fmt::format("ndf of {} ({})", baked.spec.text, density.lines()), screen_vertex_shader(), density.text()};
 }
 

@@ -64,7 +64,7 @@ TEST(HemisphereGrid, SumsToTheHemisphereAndItsProjection) {
   }
 }
 
-// The resolution that a lobe asks for integrates it, and its square, wherever it leans.
+// The resolution for a lobe integrates it, and its square, wherever it leans.
 TEST(HemisphereGrid, IntegratesTheLobesThatItIsMadeFor) {
   for (const Lobe& lobe :
        {Lobe{blinn_phong, 64}, {blinn_phong, 512}, {vmf, 2000}, {beckmann, 0.1}, {ggx, 0.05}, {blinn_phong, 1e4}}) {
@@ -179,7 +179,7 @@ TEST(ReferenceNdf, IsThePlainMeanOverTheTexels) {
   const Image normals = random_normals(37, 23, 0.9F, 11);
   for (const Lobe& lobe : {Lobe{blinn_phong, 512}, {ggx, 0.02}, {beckmann, 0.1}}) {
     const FootprintTexels texels = texels_under(material_of(normals, lobe), {{0, 0}, {1, 1}});
-    const Lobe stored{lobe.distribution, texels.facets.front().parameter};  // a material keeps 32 bits
+    const Lobe stored{lobe.distribution, texels.facets.front().parameter};  // a material stores 32 bits
     const auto densities = ReferenceNdf(lobe.distribution, texels.facets).densities(some_directions(), no_progress);
     for (std::size_t d = 0; d < densities.size(); ++d) {
       const glm::dvec3 h = glm::normalize(glm::dvec3(some_directions()[d]));
@@ -237,7 +237,7 @@ TEST(NdfFigures, TellHowFarADensityIsOff) {
   EXPECT_FALSE(std::isfinite(broken.l2) || std::isfinite(broken.energy) || std::isfinite(broken.peak));
 }
 
-// A map of lobe parameters gives its own numbers, not what a roughness map would keep of them.
+// A map of lobe parameters gives its own numbers, not those that a roughness map would store.
 TEST(FootprintTexels, TakesLobeParametersAsTheyAre) {
   Material material;
   material.brdf.distribution = NormalDistribution::vmf;

@@ -20,28 +20,20 @@ namespace footprint::testing {
 namespace {
 
 // The reference's method with textures of its own, and lines in front of its module.
-class Crowded final : public Method {
- public:
+struct Crowded : Method {
   explicit Crowded(int textures, const std::string& lines = {})
-      : textures_(textures), text_(lines + std::string(base_surface().shader().text)) {}
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-  [[nodiscard]] Prefiltered precompute(const Material& m, const Options& o, const EffectSet& e,
-                                       const Progress& p) const override {
-    Prefiltered out = base_surface().precompute(m, o, e, p);
-    for (int i = 0; i < textures_; ++i)
-      out.textures.push_back(make_texture("crowd_" + std::to_string(i), {Image(1, 1, 1, 0.5F)}, Storage::fp32, {}));
-    return out;
-  }
-  [[nodiscard]] ShaderModule shader() const override {
-    ShaderModule module = base_surface().shader();
-    module.text = text_;
-    return module;
+      : Method(base_surface()), text(lines + std::string(base_surface().shader.text)) {
+    info = {.name = "crowded", .summary = {}, .paper = {}, .options = {}, .honours = EffectSet{}.set()};
+    shader.text = text;
+    precompute = [textures](const Material& m, const Options& o, const EffectSet& e, const Progress& p) {
+      Prefiltered out = base_surface().precompute(m, o, e, p);
+      for (int i = 0; i < textures; ++i)
+        out.textures.push_back(make_texture("crowd_" + std::to_string(i), {Image(1, 1, 1, 0.5F)}, Storage::fp32, {}));
+      return out;
+    };
   }
 
- private:
-  int textures_;
-  std::string text_;
-  MethodInfo info_{.name = "crowded", .summary = {}, .paper = {}, .options = {}, .honours = EffectSet{}.set()};
+  std::string text;
 };
 
 Error error_of(const Method& method) {
@@ -55,7 +47,7 @@ Error error_of(const Method& method) {
 }
 
 std::string fragment_text(const ShaderVariant& variant, const Prefiltered& prefiltered) {
-  return forward_shaders(variant, forward_units(variant, prefiltered), base_surface().shader(), Options({}, {}, "test"),
+  return forward_shaders(variant, forward_units(variant, prefiltered), base_surface().shader, Options({}, {}, "test"),
                          prefiltered)
       .fragment.text();
 }

@@ -270,29 +270,21 @@ TEST(EffectTrace, TexturesAndBytesFollow) {
 }
 
 // An effect that a method cannot honour is left out of its picture; all else stays.
-class NoFresnel final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-  [[nodiscard]] Prefiltered precompute(const Material& m, const Options& o, const EffectSet& e,
-                                       const Progress& p) const override {
-    EXPECT_FALSE(has(e, Effect::fresnel));
-    return base_surface().precompute(m, o, e, p);
-  }
-  [[nodiscard]] ShaderModule shader() const override { return base_surface().shader(); }
-
- private:
-  MethodInfo info_{.name = "no_fresnel",
-                   .summary = "",
-                   .paper = "",
-                   .options = {},
-                   .honours = ~EffectSet{}.set(static_cast<std::size_t>(Effect::fresnel))};
-};
-
 TEST(EffectTrace, IsLeftOutByAMethodThatCannotHonourIt) {
   Scene scene = least_scene();
   const Image without = TestRenderer(scene).frame(base_surface());
   scene.materials[0].brdf.fresnel = FresnelTerm::schlick;
-  const NoFresnel method;
+  const Method method{.info = {.name = "no_fresnel",
+                               .summary = "",
+                               .paper = "",
+                               .options = {},
+                               .honours = ~EffectSet{}.set(static_cast<std::size_t>(Effect::fresnel))},
+                      .precompute =
+                          [](const Material& m, const Options& o, const EffectSet& e, const Progress& p) {
+                            EXPECT_FALSE(has(e, Effect::fresnel));
+                            return base_surface().precompute(m, o, e, p);
+                          },
+                      .shader = base_surface().shader};
   EXPECT_LT(largest_difference(TestRenderer(scene).frame(method), without), 1e-6);
   EXPECT_GT(largest_difference(TestRenderer(scene).frame(base_surface()), without), 1e-3);
 }

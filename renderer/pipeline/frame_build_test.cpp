@@ -29,7 +29,7 @@ class Fill final : public FrameBuild {
         inputs_(inputs),
         pass_("fill", frame_build_shader(variant, {"fill.glsl", fill_pass}, options).text()) {}
 
-  [[nodiscard]] std::optional<BuildInputs> kept_until_change_of() const override { return inputs_; }
+  [[nodiscard]] std::optional<BuildInputs> valid_until_change_of() const override { return inputs_; }
 
   void run(const FrameBuildJob& job) const override {
     EXPECT_GT(job.batch.index_count, 0);
@@ -53,33 +53,28 @@ class Fill final : public FrameBuild {
 };
 
 // Shades with what its frame build has written.
-class Builder final : public Method {
- public:
-  [[nodiscard]] const MethodInfo& info() const override { return info_; }
-  [[nodiscard]] Prefiltered precompute(const Material& /*material*/, const Options& /*options*/,
-                                       const EffectSet& /*effects*/, const Progress& /*progress*/) const override {
-    return {.textures = {make_built_texture({.name = "filled"}, {})}, .scalars = {}};
-  }
-  [[nodiscard]] std::unique_ptr<FrameBuild> frame_build(const ShaderVariant& variant,
-                                                        const Options& options) const override {
-    return std::make_unique<Fill>(variant, options, runs, inputs);
-  }
-  [[nodiscard]] ShaderModule shader() const override {
-    return {"builder.glsl",
-            "struct Effective { float shade; };\n"
-            "Effective effective(Footprints f) { return Effective(fetch(filled, 0, f.normal).r); }\n"
-            "Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return Reflected(vec3(e.shade)); }\n"
-            "float ndf(Effective e, vec3 h) { return e.shade; }\n"};
-  }
-  mutable int runs = 0;
+struct Builder {
+  int runs = 0;
   std::optional<BuildInputs> inputs{};
-
- private:
-  MethodInfo info_{.name = "builder",
-                   .summary = {},
-                   .paper = {},
-                   .options = {},
-                   .honours = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light))};
+  Method method{
+      .info = {.name = "builder",
+               .summary = {},
+               .paper = {},
+               .options = {},
+               .honours = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light))},
+      .precompute =
+          [](const Material& /*material*/, const Options& /*options*/, const EffectSet& /*effects*/,
+             const Progress& /*progress*/) {
+            return Prefiltered{.textures = {make_built_texture({.name = "filled"}, {})}, .scalars = {}};
+          },
+      .shader = {"builder.glsl",
+                 "struct Effective { float shade; };\n"
+                 "Effective effective(Footprints f) { return Effective(fetch(filled, 0, f.normal).r); }\n"
+                 "Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return Reflected(vec3(e.shade)); }\n"
+                 "float ndf(Effective e, vec3 h) { return e.shade; }\n"},
+      .frame_build = [this](const ShaderVariant& variant, const Options& options) -> std::unique_ptr<FrameBuild> {
+        return std::make_unique<Fill>(variant, options, runs, inputs);
+      }};
 };
 
 GLint state_of(GLenum name) {
@@ -90,23 +85,23 @@ GLint state_of(GLenum name) {
 
 TEST(FrameBuild, RunsOncePerFrameForAnyTiles) {
   const Scene scene = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
-  const Builder method;
+  Builder builder;
   const EffectSet effects = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light));
   GpuScene gpu_scene(shared_context().info(), scene, effects);
   const BakedMethod baked =
-      bake(method, {.text = "builder", .name = "builder", .options = {}}, scene, effects, no_progress);
+      bake(builder.method, {.text = "builder", .name = "builder", .options = {}}, scene, effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
   EXPECT_TRUE(gpu.has_frame_build());
-  EXPECT_FALSE(gpu.keeps_builds());
-  EXPECT_EQ(method.runs, 0);
+  EXPECT_FALSE(gpu.reuses_build());
+  EXPECT_EQ(builder.runs, 0);
   const View view{.size = {8, 8}, .camera = scene.camera};
   const FrameRenderer frames(shared_context().info(), gpu_scene, gpu, view.size, {}, 4);  // 4 tiles
   const Image first = frames.render(view);
-  EXPECT_EQ(method.runs, 1);
+  EXPECT_EQ(builder.runs, 1);
   const Image second = frames.render(view);
-  EXPECT_EQ(method.runs, 2);
+  EXPECT_EQ(builder.runs, 2);
   frames.draw(view);
-  EXPECT_EQ(method.runs, 3);
+  EXPECT_EQ(builder.runs, 3);
   shared_context().check("frame builds");
   const float one = first.at(4, 4)[0];
   EXPECT_GT(one, 0.0F);
@@ -115,9 +110,10 @@ TEST(FrameBuild, RunsOncePerFrameForAnyTiles) {
 
 TEST(FrameBuild, LeavesThePipelinesStateAlone) {
   const Scene scene = square_scene(constant_normals(4, 4, {0, 0, 1}), {});
-  const Builder method;
+  Builder builder;
   GpuScene gpu_scene(shared_context().info(), scene, {});
-  const BakedMethod baked = bake(method, {.text = "builder", .name = "builder", .options = {}}, scene, {}, no_progress);
+  const BakedMethod baked =
+      bake(builder.method, {.text = "builder", .name = "builder", .options = {}}, scene, {}, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
   constexpr std::array<GLenum, 1> format{GL_RGBA32F};
   const gl::RenderTarget target(5, 3, format, true);
@@ -138,19 +134,19 @@ TEST(FrameBuild, LeavesThePipelinesStateAlone) {
 
 // One frame after the other of a scene that changes, by a build that depends on `inputs`: how often it ran.
 std::vector<int> runs_over(const std::vector<Scene>& frames, const BuildInputs& inputs) {
-  Builder method;
-  method.inputs = inputs;
+  Builder builder;
+  builder.inputs = inputs;
   const EffectSet effects = EffectSet{}.set(static_cast<std::size_t>(Effect::point_light));
   GpuScene gpu_scene(shared_context().info(), frames.front(), effects);
   const BakedMethod baked =
-      bake(method, {.text = "builder", .name = "builder", .options = {}}, frames.front(), effects, no_progress);
+      bake(builder.method, {.text = "builder", .name = "builder", .options = {}}, frames.front(), effects, no_progress);
   const GpuMethod gpu(gpu_scene, baked);
-  EXPECT_TRUE(gpu.keeps_builds());
+  EXPECT_TRUE(gpu.reuses_build());
   std::vector<int> runs;
   for (const Scene& frame : frames) {
     gpu_scene.update(frame);
     gpu.build_frame({.size = {4, 4}, .camera = frame.camera});
-    runs.push_back(method.runs);
+    runs.push_back(builder.runs);
   }
   return runs;
 }

@@ -12,9 +12,7 @@
 
 namespace footprint {
 
-namespace embedded {
 extern const EmbeddedTexts shared_glsl;
-}
 
 namespace {
 
@@ -181,7 +179,7 @@ class ShaderText::Reader {
   }
 
   void include(std::string_view file) {
-    const EmbeddedText* const shared = find_text(embedded::shared_glsl, file);
+    const EmbeddedText* const shared = find_text(shared_glsl, file);
     const EmbeddedText* const own = find_text(to_.module_.folder, file);
     if (shared == nullptr && own == nullptr) throw no_text(file);
     if (!keeping_) return;
@@ -195,9 +193,9 @@ class ShaderText::Reader {
 
   [[nodiscard]] Error no_text(std::string_view file) const {
     std::vector<std::string> files;
-    for (const EmbeddedText& text : embedded::shared_glsl) files.emplace_back(text.file);
+    for (const EmbeddedText& text : shared_glsl) files.emplace_back(text.file);
     for (const EmbeddedText& text : to_.module_.folder) {
-      if (find_text(embedded::shared_glsl, text.file) == nullptr) files.emplace_back(text.file);
+      if (find_text(shared_glsl, text.file) == nullptr) files.emplace_back(text.file);
     }
     return line_.bad(fmt::format("`{}` is not a shader text", file), suggestion(file, files));
   }
@@ -215,7 +213,7 @@ ShaderText::ShaderText(ShaderFlags flags, ShaderModule module) : flags_(std::mov
 
 void ShaderText::add(std::string_view text) { text_ += text; }
 
-void ShaderText::include(std::string_view file) { include_shared(*find_text(embedded::shared_glsl, file)); }
+void ShaderText::include(std::string_view file) { include_shared(*find_text(shared_glsl, file)); }
 
 void ShaderText::include_module() {
   include_own({module_.file, module_.text});

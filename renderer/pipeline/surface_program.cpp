@@ -26,14 +26,14 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   shared.set(static_cast<std::size_t>(Effect::vertex_color));
   shared.set(static_cast<std::size_t>(Effect::clear_coat));
   shared.set(static_cast<std::size_t>(Effect::cast_shadow));
-  return scene.effects() & (method.info().honours | shared);
+  return scene.effects() & (method.info.honours | shared);
 }
 
 // A method whose samples are many, and whose module can, integrates itself; drawn for one sample per pixel, directions
 // would be all noise. Directional lights serve every module.
 EnvironmentUse environment_of(const Method& method, const ProgramSettings& settings) {
   if (settings.environment == EnvironmentUse::dense) return EnvironmentUse::dense;
-  const bool itself = method.info().draws_directions && settings.sampling != Sampling::frame;
+  const bool itself = method.info.draws_directions && settings.sampling != Sampling::frame;
   return itself ? settings.environment : EnvironmentUse::prefiltered;
 }
 
@@ -48,10 +48,10 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .horizon_open = scene.horizon() == Horizon::open,
           .shared_coordinates = scene.shared_coordinates(),
           .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
-          .screen_derivatives = baked.method->info().screen_derivatives && settings.sampling == Sampling::frame,
-          .finest_coat = baked.method->info().reads_finest_level && settings.sampling == Sampling::frame,
+          .screen_derivatives = baked.method->info.screen_derivatives && settings.sampling == Sampling::frame,
+          .finest_coat = baked.method->info.reads_finest_level && settings.sampling == Sampling::frame,
           .environment = environment_of(*baked.method, settings),
-          .sums_environment = baked.method->info().sums_environment,
+          .sums_environment = baked.method->info.sums_environment,
           .environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0,
           .facet_lobes = scene.facet_lobes(),
           .point_lights = scene.light_counts().point,
@@ -89,18 +89,18 @@ constexpr std::uint32_t directions_of_a_patch = 2;
 bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
 
 // Restores the GL state that a frame build may change and a draw does not set.
-class StateKeeper {
+class StateGuard {
  public:
-  StateKeeper() {
+  StateGuard() {
     gl::api().GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
     gl::api().GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
     gl::api().GetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertex_array_);
     gl::api().GetIntegerv(GL_VIEWPORT, viewport_.data());
     std::ranges::transform(switches, on_.begin(), [](GLenum name) { return gl::api().IsEnabled(name) == GL_TRUE; });
   }
-  StateKeeper(const StateKeeper&) = delete;
-  StateKeeper& operator=(const StateKeeper&) = delete;
-  ~StateKeeper() {
+  StateGuard(const StateGuard&) = delete;
+  StateGuard& operator=(const StateGuard&) = delete;
+  ~StateGuard() {
     gl::api().BindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
     gl::api().BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
     gl::api().BindVertexArray(static_cast<GLuint>(vertex_array_));
@@ -212,7 +212,7 @@ glm::ivec2 GpuMethod::texels(const GpuBatch& batch) const {
 }
 
 bool GpuMethod::is_built_for(const View& view) const {
-  const std::optional<BuildInputs> inputs = build_->kept_until_change_of();
+  const std::optional<BuildInputs> inputs = build_->valid_until_change_of();
   if (!inputs || !built_) return false;
   const SceneContent& then = built_->content;
   const SceneContent& now = scene_->content();
@@ -226,13 +226,13 @@ void GpuMethod::build_frame(const View& view) const {
 
 RecordedDraws GpuMethod::draws_per_frame(const View& view) const {
   RecordedDraws draws;
-  if (build_ && !keeps_builds()) rebuild(view, &draws);
+  if (build_ && !reuses_build()) rebuild(view, &draws);
   return draws;
 }
 
 void GpuMethod::rebuild(const View& view, RecordedDraws* record) const {
   if (!build_) return;
-  const StateKeeper state;
+  const StateGuard state;
   // Waits for draws that read the textures, and for earlier builds.
   gl::api().MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   for (const GpuBatch& batch : scene_->batches()) {
@@ -259,7 +259,7 @@ ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, 
   TextureUnits units = forward_units(variant, baked.materials.front());
   units.require_room(scene.context(), baked.spec.text);
   ForwardShaders shaders =
-      forward_shaders(variant, units, baked.method->shader(), baked.options, baked.materials.front());
+      forward_shaders(variant, units, baked.method->shader, baked.options, baked.materials.front());
   return {.variant = variant, .units = std::move(units), .shaders = std::move(shaders)};
 }
 

@@ -43,7 +43,7 @@ class GpuMethod {
       std::size_t material, const TextureUploaded& uploaded = [](std::size_t) {});
   [[nodiscard]] bool has_frame_build() const { return build_ != nullptr; }
   /// Whether a frame in which nothing changed reuses the last build.
-  [[nodiscard]] bool keeps_builds() const { return build_ && build_->kept_until_change_of(); }
+  [[nodiscard]] bool reuses_build() const { return build_ && build_->valid_until_change_of(); }
   /// Whether the build depends on the view.
   [[nodiscard]] bool looks_from_view() const { return build_ && build_->looks_from_view(); }
   /// The textures of a material in the order of its bake; empty if it has no triangle.
@@ -55,7 +55,7 @@ class GpuMethod {
   /// record: receives its draws and copies, unless it is null.
   void rebuild(const View& view, RecordedDraws* record = nullptr) const;
   /// The draws and copies of the frame build that every frame repeats, which it runs for them. Empty without a build,
-  /// and for one that frames reuse (keeps_builds).
+  /// and for one that frames reuse (reuses_build).
   [[nodiscard]] RecordedDraws draws_per_frame(const View& view) const;
   /// The size of a batch's largest map with the normal map's coordinates: samples of the reference separate its texels.
   /// (1, 1) without such a map.

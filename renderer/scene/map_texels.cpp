@@ -8,7 +8,7 @@
 
 namespace footprint {
 
-struct MapTexels::Kept {
+struct MapTexels::Content {
   std::shared_ptr<const Image> floats;  // or else:
   PackedImage packed;
   Decode decode;             // none: the packed image is the map
@@ -32,53 +32,53 @@ std::vector<float> first_texel(const Image& image) {
 
 MapTexels::MapTexels(std::shared_ptr<const Image> image) {
   if (!image) return;
-  Kept kept{.floats = {},
-            .packed = {},
-            .decode = {},
-            .first = first_texel(*image),
-            .width = image->width,
-            .height = image->height};
-  kept.floats = std::move(image);
-  kept_ = std::make_shared<const Kept>(std::move(kept));
+  Content content{.floats = {},
+                  .packed = {},
+                  .decode = {},
+                  .first = first_texel(*image),
+                  .width = image->width,
+                  .height = image->height};
+  content.floats = std::move(image);
+  content_ = std::make_shared<const Content>(std::move(content));
 }
 
 MapTexels MapTexels::packed(const Image& image) { return packed(image, image, {}); }
 
 MapTexels MapTexels::packed(const Image& map, const Image& stored, Decode decode) {
   MapTexels out;
-  out.kept_ = std::make_shared<const Kept>(Kept{.floats = {},
-                                                .packed = PackedImage(stored),
-                                                .decode = std::move(decode),
-                                                .first = first_texel(map),
-                                                .width = map.width,
-                                                .height = map.height});
+  out.content_ = std::make_shared<const Content>(Content{.floats = {},
+                                                         .packed = PackedImage(stored),
+                                                         .decode = std::move(decode),
+                                                         .first = first_texel(map),
+                                                         .width = map.width,
+                                                         .height = map.height});
   return out;
 }
 
-int MapTexels::width() const { return kept_->width; }
+int MapTexels::width() const { return content_->width; }
 
-int MapTexels::height() const { return kept_->height; }
+int MapTexels::height() const { return content_->height; }
 
-int MapTexels::channels() const { return static_cast<int>(kept_->first.size()); }
+int MapTexels::channels() const { return static_cast<int>(content_->first.size()); }
 
 std::size_t MapTexels::texel_count() const {
   return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
 }
 
-std::span<const float> MapTexels::first() const { return kept_->first; }
+std::span<const float> MapTexels::first() const { return content_->first; }
 
 Image MapTexels::decoded() const {
-  require_texels(width(), height(), texel_count() * kept_->first.size() * sizeof(float), "a decoded map");
-  return kept_->decoded();
+  require_texels(width(), height(), texel_count() * content_->first.size() * sizeof(float), "a decoded map");
+  return content_->decoded();
 }
 
 const void* MapTexels::identity() const {
-  if (!kept_) return nullptr;
-  return kept_->floats ? static_cast<const void*>(kept_->floats.get()) : kept_.get();
+  if (!content_) return nullptr;
+  return content_->floats ? static_cast<const void*>(content_->floats.get()) : content_.get();
 }
 
 std::size_t MapTexels::byte_count() const {
-  return kept_->floats ? kept_->floats->texels.size() * sizeof(float) : kept_->packed.byte_count();
+  return content_->floats ? content_->floats->texels.size() * sizeof(float) : content_->packed.byte_count();
 }
 
 }  // namespace footprint

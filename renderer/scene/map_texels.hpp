@@ -29,7 +29,7 @@ class MapTexels {
   /// Stores the packed content of a file instead of `map`; `decode` converts it to `map` at each use.
   [[nodiscard]] static MapTexels packed(const Image& map, const Image& stored, Decode decode);
 
-  explicit operator bool() const { return kept_ != nullptr; }
+  explicit operator bool() const { return content_ != nullptr; }
   [[nodiscard]] int width() const;
   [[nodiscard]] int height() const;
   [[nodiscard]] int channels() const;
@@ -49,10 +49,10 @@ class MapTexels {
   }
 
  private:
-  struct Kept;
+  struct Content;
   [[nodiscard]] const void* identity() const;
 
-  std::shared_ptr<const Kept> kept_;
+  std::shared_ptr<const Content> content_;
 };
 
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// What a material keeps of its maps: the same map at every call, in the bytes of the file's own depth.
+// The maps that a material stores: the same map at every call, in the bytes of the file's own depth.
 #include "renderer/scene/map_texels.hpp"
 
 #include <gtest/gtest.h>

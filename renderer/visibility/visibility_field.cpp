@@ -252,14 +252,12 @@ std::string visibility_key(const Scene& scene, const Environment& environment) {
 }
 
 // Found by the archives of core/bytes.hpp.
-template <class Archive>
-void fields(Archive& archive, Image& image) {
+void fields(auto& archive, Image& image) {
   auto& [width, height, channels, texels] = image;
   archive(width, height, channels, texels);
 }
 
-template <class Archive>
-void fields(Archive& archive, VisibilityField& field) {
+void fields(auto& archive, VisibilityField& field) {
   auto& [layers, meshes, error] = field;
   archive(layers, meshes, error);
 }

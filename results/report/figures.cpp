@@ -71,10 +71,6 @@ std::string spread_text(double median, double low, double high) {
   return fmt::format("{} ({}-{})", three_figures(median), three_figures(low), three_figures(high));
 }
 
-std::string bytes_per_texel_text(const Record& record) {
-  return record.precompute_bytes_per_texel ? three_figures(*record.precompute_bytes_per_texel) : "n/a";
-}
-
 std::optional<double> equivalent_spp(const Record& record) {
   const bool within = record.equivalent && record.equivalent->side == CurveSide::within;
   return within ? std::optional(record.equivalent->spp) : std::nullopt;

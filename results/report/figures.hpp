@@ -30,9 +30,6 @@ namespace footprint {
 /// "1.31 (1.25-1.40)": the median and the ends of the spread; "n/a" for figures that were not measured.
 [[nodiscard]] std::string spread_text(double median, double low, double high);
 
-/// Bytes that the baked maps take a texel: "16.0", "n/a" without a map.
-[[nodiscard]] std::string bytes_per_texel_text(const Record& record);
-
 /// The samples that a record is worth, where the curve of plain supersampling reaches its error.
 [[nodiscard]] std::optional<double> equivalent_spp(const Record& record);
 

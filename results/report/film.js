@@ -101,41 +101,32 @@
     pointStyle: 'line',
   });
 
-  const drawChart = (id, title, datasets) => {
+  const drawLines = (id, title, datasets) => {
     Chart.getChart(id)?.destroy();
-    new Chart(id, {
-      type: 'scatter',
-      data: {datasets},
+    drawChart(id, datasets, {
+      x: {...linearAxis('Frame'), min: 0, max: frames.length - 1},
+      y: {...linearAxis(title), beginAtZero: true},
+    }, (item) => `${item.dataset.label}, ${place(item.raw.x)}: ${text(item.raw.y)}`, {
+      legendWidth: 18,
+      displayColors: true,
       plugins: [cursor],
-      options: {
-        animation: false,
-        maintainAspectRatio: false,
-        scales: {
-          x: {...linearAxis('Frame'), min: 0, max: frames.length - 1},
-          y: {...linearAxis(title), beginAtZero: true},
-        },
-        onClick: (event, hits, chart) => go(Math.round(chart.scales.x.getValueForPixel(event.x))),
-        plugins: {
-          legend: legend(18),
-          tooltip: {callbacks: {label: (item) => `${item.dataset.label}, ${place(item.raw.x)}: ${text(item.raw.y)}`}},
-        },
-      },
+      onClick: (event, hits, chart) => go(Math.round(chart.scales.x.getValueForPixel(event.x))),
     });
   };
 
   const showCauses = () => {
     const own = recordsOf(shownNow.method);
-    drawChart('causes', 'Flicker', causes.map(([name, label], i) =>
+    drawLines('causes', 'Flicker', causes.map(([name, label], i) =>
       line(label, own.map((record) => record.flicker?.[name]?.mean), causeColor(i))));
   };
 
   const showCharts = () => {
     const lines = (value) => methods.map((method) => line(method, recordsOf(method).map(value), seriesColor(method)));
-    drawChart('error', 'Error', lines((record) => record.error?.normalized_color));
-    drawChart('flicker', 'Flicker', methods.flatMap((method) => [
+    drawLines('error', 'Error', lines((record) => record.error?.normalized_color));
+    drawLines('flicker', 'Flicker', methods.flatMap((method) => [
       line(method, recordsOf(method).map((record) => record.flicker?.mean), seriesColor(method)),
       line(`${method}, p99`, recordsOf(method).map((record) => record.flicker?.p99), seriesColor(method), [5, 4])]));
-    drawChart('highlights', 'Highlight energy', [
+    drawLines('highlights', 'Highlight energy', [
       line('reference', frames.map((frame) => frame.reference_highlight_energy), styleValue('--ink'), [6, 4]),
       ...lines((record) => record.highlight_energy)]);
     showCauses();

@@ -1,6 +1,5 @@
 // Values as JSON and back. A structure lists its fields once, by `fields(archive, value)` in its namespace:
-//   template <class Archive>
-//   void fields(Archive& archive, Is<Flicker> auto& value) { archive("mean", value.mean); ... }
+//   void fields(auto& archive, Is<Flicker> auto& value) { archive("mean", value.mean); ... }
 // An enumeration gives its words by `words_of(value)`. A number that is not finite is null, like an absent value.
 #pragma once
 

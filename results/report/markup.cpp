@@ -116,7 +116,7 @@ std::string fill_template(std::string_view page, const std::map<std::string, std
     if (close == std::string_view::npos) return filled.append(page);
     const std::string name(page.substr(open + 2, close - open - 2));
     const auto value = values.find(name);
-    if (value == values.end()) throw std::logic_error("the page's template asks for `" + name + "`");
+    if (value == values.end()) throw std::logic_error("the page's template names `" + name + "`");
     filled.append(page.substr(0, open)).append(value->second);
     page.remove_prefix(close + 2);
   }
@@ -161,11 +161,9 @@ std::string script_escaped(std::string_view json) {
   return escaped;
 }
 
-namespace embedded {
 extern const EmbeddedTexts page_texts;
-}
 
-std::string_view page_text(std::string_view file) { return find_text(embedded::page_texts, file)->text; }
+std::string_view page_text(std::string_view file) { return find_text(page_texts, file)->text; }
 
 std::string fill_page(const PageShell& shell, std::map<std::string, std::string_view> values) {
   const std::string title = html_escaped(shell.title);

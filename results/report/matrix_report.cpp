@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-#include <utility>
-
 #include "renderer/core/files.hpp"
 #include "results/report/csv_field.hpp"
 #include "results/report/experiment_report.hpp"
@@ -17,20 +14,6 @@
 
 namespace footprint {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr const char* matrix_schema = "footprint-matrix/1";
-
-Json member_json(const MatrixMember& member) {
-  return {{"folder", member.folder},
-          {"coordinates", to_json_value(member.results.coordinates)},
-          {"scene", member.results.scene.name},
-          {"footprint", member.results.footprint},
-          {"spp", member.results.reference.spp},
-          {"seed", member.results.reference.seed},
-          {"records", member.results.records.size()}};
-}
 
 // With paths from the matrix' folder.
 Record seen_from_above(Record record, const std::string& folder) {
@@ -66,20 +49,7 @@ std::string records_table(const MatrixResults& matrix) {
   return markdown_table(columns, rows);
 }
 
-}  // namespace
-
-std::string matrix_json(const MatrixResults& matrix) {
-  Json members = Json::array();
-  for (const MatrixMember& member : matrix.members) members.push_back(member_json(member));
-  const Json document{{"schema", matrix_schema},
-                      {"tool", to_json_value(matrix.members.front().results.tool)},
-                      {"backend", to_json_value(matrix.members.front().results.backend)},
-                      {"experiment", to_json_value(matrix.report)},
-                      {"left_out", matrix.left_out},
-                      {"members", std::move(members)}};
-  return json_text(document, 2) + "\n";
-}
-
+// The lines of the members' results.csv, each after its member's name, footprint filter and seed.
 std::string matrix_csv(const MatrixResults& matrix) {
   std::string csv = fmt::format("member,footprint,seed,{}{}", csv_header(), csv_line_end);
   for (const auto& [folder, results] : matrix.members) {
@@ -89,6 +59,8 @@ std::string matrix_csv(const MatrixResults& matrix) {
   }
   return csv;
 }
+
+}  // namespace
 
 std::string matrix_table(const MatrixResults& matrix) {
   std::string text = fmt::format("# {}\n", markdown_escaped(matrix.report.title)) + experiment_markdown(matrix.report);
@@ -101,7 +73,7 @@ std::string matrix_table(const MatrixResults& matrix) {
 }
 
 void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "matrix.json", matrix_json(matrix));
+  write_file_atomically(folder / "matrix.json", json_text(to_json_value(matrix), 2) + "\n");
   write_file_atomically(folder / "results.csv", matrix_csv(matrix));
   write_file_atomically(folder / "table.md", matrix_table(matrix));
   write_file_atomically(folder / "index.html", matrix_page(matrix));

@@ -1,5 +1,5 @@
-// The report over all members of an experiment's [matrix]: matrix.json, results.csv, table.md and index.html. Each
-// member has its own results.json and page in the folder of its name.
+// The report over all members of an experiment's [matrix]: matrix.json (docs/matrix.schema.json), results.csv, table.md
+// and index.html. Each member has its own results.json and page in the folder of its name.
 #pragma once
 
 #include <filesystem>
@@ -22,13 +22,6 @@ struct MatrixResults {
   std::vector<std::string> left_out;  ///< of those, the ones over members that were not run: they are not judged
   std::vector<MatrixMember> members;  ///< one or more
 };
-
-/// The document of docs/matrix.schema.json, "schema": "footprint-matrix/1"; pretty-printed.
-[[nodiscard]] std::string matrix_json(const MatrixResults& matrix);
-
-/// The lines of the members' results.csv, each after its member's name, footprint filter and seed; paths of pictures
-/// start from the matrix' folder.
-[[nodiscard]] std::string matrix_csv(const MatrixResults& matrix);
 
 /// Its claims and thresholds, and every record in one table, in Markdown.
 [[nodiscard]] std::string matrix_table(const MatrixResults& matrix);

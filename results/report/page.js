@@ -395,6 +395,22 @@ function legend(width) {
     color: styleValue('--ink'), generateLabels: entries}};
 }
 
+/** Draws a chart of points and lines; `label` makes the text of a point. */
+function drawChart(id, datasets, scales, label, {legendWidth = 9, displayColors = false, plugins = [], ...options} = {}) {
+  new Chart(id, {
+    type: 'scatter',
+    data: {datasets},
+    plugins,
+    options: {
+      animation: false,
+      maintainAspectRatio: false,
+      scales,
+      plugins: {legend: legend(legendWidth), tooltip: {callbacks: {label}, displayColors}},
+      ...options,
+    },
+  });
+}
+
 function tooltipText(item) {
   const set = item.dataset;
   const {x, y} = item.raw;
@@ -436,20 +452,8 @@ function showPlot() {
   if (floor) datasets.push(floorSeries(floor, x));
   const members = [...new Set(drawn.map((r) => r.run))];
   if (members.length <= mostFronts) datasets.push(...members.map((run) => frontSeries(drawn.filter((r) => r.run === run))));
-  new Chart('plot', {
-    type: 'scatter',
-    data: {datasets},
-    plugins: [whiskers, countLabels],
-    options: {
-      animation: false,
-      maintainAspectRatio: false,
-      scales: {x: logAxis('Frame time (ms)', x), y: logAxis('Shading error', y)},
-      plugins: {
-        legend: legend(9),
-        tooltip: {callbacks: {label: tooltipText}, displayColors: false},
-      },
-    },
-  });
+  drawChart('plot', datasets, {x: logAxis('Frame time (ms)', x), y: logAxis('Shading error', y)}, tooltipText,
+    {plugins: [whiskers, countLabels]});
 }
 
 // ---- figures against distance
@@ -479,20 +483,8 @@ function showTrend(id, title, value) {
   const isThere = new Set(points.map((point) => point.x)).size > 1;
   byId(id).closest('figure').hidden = !isThere;
   if (!isThere) return false;
-  new Chart(id, {
-    type: 'scatter',
-    data: {datasets},
-    options: {
-      animation: false,
-      maintainAspectRatio: false,
-      scales: {x: distanceAxis(padded(points.map((p) => p.x), 1.15, 1.15)),
-        y: logAxis(title, padded(points.map((p) => p.y), 1.4, 1.5))},
-      plugins: {
-        legend: legend(9),
-        tooltip: {callbacks: {label: trendText}, displayColors: false},
-      },
-    },
-  });
+  drawChart(id, datasets, {x: distanceAxis(padded(points.map((p) => p.x), 1.15, 1.15)),
+    y: logAxis(title, padded(points.map((p) => p.y), 1.4, 1.5))}, trendText);
   return true;
 }
 
@@ -537,22 +529,8 @@ function showSparkle() {
   const datasets = [histogramSeries('reference', counted[0].error.reference_luminances, styleValue('--ink'), [6, 4]),
     ...counted.map((record) => histogramSeries(record.method, record.error.luminances, seriesColor(record.method), []))];
   const shares = datasets.flatMap((set) => set.data.map((point) => point.y));
-  new Chart('sparkle', {
-    type: 'scatter',
-    data: {datasets},
-    options: {
-      animation: false,
-      maintainAspectRatio: false,
-      scales: {
-        x: {...linearAxis('Luminance as shown'), min: 0, max: 1},
-        y: logAxis('Share of pixels', padded(shares, 1, 1.5)),
-      },
-      plugins: {
-        legend: legend(18),
-        tooltip: {callbacks: {label: sparkleText}, displayColors: false},
-      },
-    },
-  });
+  drawChart('sparkle', datasets, {x: {...linearAxis('Luminance as shown'), min: 0, max: 1},
+    y: logAxis('Share of pixels', padded(shares, 1, 1.5))}, sparkleText, {legendWidth: 18});
 }
 
 // ---- pictures

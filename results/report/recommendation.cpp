@@ -41,6 +41,17 @@ std::size_t least(const Candidates& candidates, const Indices& among, Value valu
   return *std::ranges::min_element(among, {}, [&](std::size_t i) { return value(candidates[i]); });
 }
 
+// Never where noise is unknown.
+bool is_closer(const Candidate& a, const Candidate& b) {
+  return a.noise && b.noise && b.error - a.error > sure_standard_errors * std::hypot(*a.noise, *b.noise);
+}
+
+// Whether the median of one is within the spread of the other.
+bool cost_as_much(const Candidate& a, const Candidate& b) {
+  const auto within = [](double value, const TimeRatio& range) { return value >= range.low && value <= range.high; };
+  return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
+}
+
 // Those that noise does not part from one of them, by the limit's own measure first.
 Indices alike(const Candidates& candidates, const Indices& among, std::size_t best, bool by_cost) {
   Indices found;
@@ -121,15 +132,6 @@ std::string what_better_costs(const MaterialAdvice& advice) {
 }  // namespace
 
 bool is_plain(const Candidate& candidate) { return candidate.method == "direct" && candidate.footprint == "trilinear"; }
-
-bool is_closer(const Candidate& a, const Candidate& b) {
-  return a.noise && b.noise && b.error - a.error > sure_standard_errors * std::hypot(*a.noise, *b.noise);
-}
-
-bool cost_as_much(const Candidate& a, const Candidate& b) {
-  const auto within = [](double value, const TimeRatio& range) { return value >= range.low && value <= range.high; };
-  return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
-}
 
 Choice choose(const std::vector<Candidate>& candidates, const Limits& limits) {
   Choice choice;
@@ -228,72 +230,6 @@ std::string recommendation_text(const Recommendation& recommendation) {
     if (!advice.command.empty()) text += fmt::format("  Bake it: {}\n", advice.command);
   }
   return text;
-}
-
-void fields(JsonWriter& archive, const Candidate& value) {
-  archive("method", value.method);
-  archive("footprint", value.footprint);
-  archive("errors", value.errors);
-  archive("error", value.error);
-  archive("worst", value.worst);
-  archive("noise", value.noise);
-  archive("cost", value.cost);
-  archive("bytes", value.bytes);
-  archive("bake_seconds", value.bake_seconds);
-}
-
-void fields(JsonWriter& archive, const Limits& value) {
-  archive("max_error", value.max_error);
-  archive("max_cost", value.max_cost);
-  archive("gpu", value.gpu);
-  archive("max_bytes", value.max_bytes);
-}
-
-void fields(JsonWriter& archive, const LeftOutMethod& value) {
-  archive("method", value.method);
-  archive("reason", value.reason);
-}
-
-// The advice and the limits that its sentences name.
-struct WrittenAdvice {
-  const MaterialAdvice& advice;
-  const Limits& limits;
-};
-
-void fields(JsonWriter& archive, const WrittenAdvice& value) {
-  const MaterialAdvice& advice = value.advice;
-  archive("material", advice.material);
-  archive("distances", advice.distances);
-  archive("pixels", advice.pixels);
-  archive("chosen", advice.choice.chosen);
-  archive("tied", advice.choice.tied);
-  archive("better", advice.choice.better);
-  archive("nearest", advice.choice.nearest);
-  archive("filter_nothing", advice.choice.filter_nothing);
-  archive("closer_than_plain", advice.closer_than_plain);
-  archive("command", advice.command);
-  archive("words", advice_sentences(advice, value.limits));
-  archive("candidates", advice.candidates);
-}
-
-void fields(JsonWriter& archive, const Recommendation& value) {
-  std::vector<WrittenAdvice> materials;
-  for (const MaterialAdvice& advice : value.materials) materials.push_back({advice, value.limits});
-  archive("schema", "footprint-recommend/1");
-  archive("tool", value.tool);
-  archive("backend", value.backend);
-  archive("scene", value.scene);
-  archive("reference", value.reference);
-  archive("size", std::tie(value.width, value.height));
-  archive("distances", value.distances);
-  archive("limits", value.limits);
-  archive("exhaustive", value.exhaustive);
-  archive("tried", value.tried);
-  archive("measured", value.measured);
-  archive("coarse", value.coarse);
-  archive("left_out", value.left_out);
-  archive("reports", value.reports);
-  archive("materials", materials);
 }
 
 std::string recommendation_json(const Recommendation& recommendation) {

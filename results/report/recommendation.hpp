@@ -33,19 +33,12 @@ struct Limits {
 
 /// The choice among candidates. Indices are into the candidates.
 struct Choice {
-  std::optional<std::size_t> chosen;  ///< none: none keeps the limit, or nothing was measured
+  std::optional<std::size_t> chosen;  ///< none: none passes the limit, or nothing was measured
   std::vector<std::size_t> tied;      ///< candidates that are as good: they differ within noise
   std::optional<std::size_t> better;  ///< the cheapest that is closer to the reference than the chosen one beyond noise
   std::optional<std::size_t> nearest;  ///< where none is chosen: the one that comes closest to the limit
   bool filter_nothing = false;  ///< the chosen one is plain `direct`, and no candidate gains more than noise over it
 };
-
-/// Whether a's error is less than b's by more than three standard errors of the difference. Never where noise is
-/// unknown.
-[[nodiscard]] bool is_closer(const Candidate& a, const Candidate& b);
-
-/// Whether the spreads of their costs overlap: each one's median is within the other's range, or the ranges touch it.
-[[nodiscard]] bool cost_as_much(const Candidate& a, const Candidate& b);
 
 /// `direct` under the trilinear filter: no filtering at all.
 [[nodiscard]] bool is_plain(const Candidate& candidate);

@@ -1,30 +1,32 @@
-// The fields of results.json, listed once for the writer and the reader (json_archive.hpp).
+// The fields of results.json, matrix.json, ndf.json and recommend.json, listed once for the writer, the reader
+// (json_archive.hpp) and the schemas of docs/.
 #pragma once
 
 #include <charconv>
 
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
-#include "results/report/records.hpp"
+#include "results/report/matrix_report.hpp"
+#include "results/report/ndf_report.hpp"
+#include "results/report/ranking.hpp"
+#include "results/report/recommendation.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 
-template <class Archive>
-void fields(Archive& archive, Is<FrameTime> auto& value) {
+void fields(auto& archive, Is<FrameTime> auto& value) {
   archive("median", value.median);
   archive("min", value.minimum);
   archive("p90", value.p90);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<TimeRatio> auto& value) {
+void fields(auto& archive, Is<TimeRatio> auto& value) {
   archive("median", value.median);
   archive("low", value.low);
   archive("high", value.high);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<PixelCounts> auto& value) {
+void fields(auto& archive, Is<PixelCounts> auto& value) {
   archive("object", value.object);
   archive("unresolved", value.unresolved);
   archive("interior", value.interior);
@@ -33,8 +35,7 @@ void fields(Archive& archive, Is<PixelCounts> auto& value) {
   archive("light", value.light);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<RecordError> auto& value) {
+void fields(auto& archive, Is<RecordError> auto& value) {
   archive("normalized_color", value.normalized_color);
   archive("relative_rmse", value.relative_rmse);
   archive("relmse", value.relmse);
@@ -55,14 +56,12 @@ void fields(Archive& archive, Is<RecordError> auto& value) {
   archive("light", value.causes.light);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<PartFlicker> auto& value) {
+void fields(auto& archive, Is<PartFlicker> auto& value) {
   archive("mean", value.mean);
   archive("p99", value.p99);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<Flicker> auto& value) {
+void fields(auto& archive, Is<Flicker> auto& value) {
   archive("mean", value.mean);
   archive("p99", value.p99);
   archive("noise_floor", value.noise_floor);
@@ -72,15 +71,13 @@ void fields(Archive& archive, Is<Flicker> auto& value) {
   archive("method", value.causes.method);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<OtherReference> auto& value) {
+void fields(auto& archive, Is<OtherReference> auto& value) {
   archive("spp", value.spp);
   archive("normalized_color", value.normalized_color);
   archive("noise_floor", value.noise_floor);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<RecordImages> auto& value) {
+void fields(auto& archive, Is<RecordImages> auto& value) {
   archive("color", value.color);
   archive("reference", value.reference);
   archive("error", value.error);
@@ -89,8 +86,7 @@ void fields(Archive& archive, Is<RecordImages> auto& value) {
   archive("standard_error", value.standard_error);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<MaterialError> auto& value) {
+void fields(auto& archive, Is<MaterialError> auto& value) {
   archive("material", value.material);
   archive("pixels", value.pixels);
   archive("shading", value.shading);
@@ -109,8 +105,7 @@ void fields(Archive& archive, Is<MaterialError> auto& value) {
   return end;
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<GpuCost> auto& value) {
+void fields(auto& archive, Is<GpuCost> auto& value) {
   archive("gpu", value.gpu);
   archive("cost_ns", value.cost_ns);
   archive("bound", value.bound);
@@ -181,8 +176,7 @@ void fields(Archive& archive, Is<Record> auto& value) {
   archive("images", value.images);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<MethodPair> auto& value) {
+void fields(auto& archive, Is<MethodPair> auto& value) {
   archive("distance", value.distance);
   archive("methods", value.methods);
   archive("closer", value.closer);
@@ -190,8 +184,7 @@ void fields(Archive& archive, Is<MethodPair> auto& value) {
   archive("picture", value.picture);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<SupersamplingPoint> auto& value) {
+void fields(auto& archive, Is<SupersamplingPoint> auto& value) {
   archive("distance", value.distance);
   archive("spp", value.spp);
   archive("normalized_color", value.normalized_color);
@@ -200,14 +193,12 @@ void fields(Archive& archive, Is<SupersamplingPoint> auto& value) {
   archive("node", value.node);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ErrorScale> auto& value) {
+void fields(auto& archive, Is<ErrorScale> auto& value) {
   archive("distance", value.distance);
   archive("error", value.error);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<FootprintNdf> auto& value) {
+void fields(auto& archive, Is<FootprintNdf> auto& value) {
   archive("footprint", value.footprint);
   archive("method", value.method);
   archive("l2", value.l2);
@@ -217,30 +208,26 @@ void fields(Archive& archive, Is<FootprintNdf> auto& value) {
   archive("picture", value.picture);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<QuantityFigure> auto& value) {
+void fields(auto& archive, Is<QuantityFigure> auto& value) {
   archive("name", value.name);
   archive("method", value.method);
   archive("quantity", value.quantity);
   archive("value", value.value);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ToolInfo> auto& value) {
+void fields(auto& archive, Is<ToolInfo> auto& value) {
   archive("name", value.name);
   archive("version", value.version);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<BackendInfo> auto& value) {
+void fields(auto& archive, Is<BackendInfo> auto& value) {
   archive("name", value.name);
   archive("renderer", value.renderer);
   archive("version", value.version);
   archive("cpu", value.cpu);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<SceneInfo> auto& value) {
+void fields(auto& archive, Is<SceneInfo> auto& value) {
   archive("name", value.name);
   archive("source", value.source);
   archive("triangles", value.triangles);
@@ -252,8 +239,7 @@ void fields(Archive& archive, Is<SceneInfo> auto& value) {
   archive("warnings", value.warnings);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ReferenceInfo> auto& value) {
+void fields(auto& archive, Is<ReferenceInfo> auto& value) {
   archive("spp", value.spp);
   archive("filter", value.filter);
   archive("seed", value.seed);
@@ -263,20 +249,17 @@ void fields(Archive& archive, Is<ReferenceInfo> auto& value) {
   archive("environment", value.environment);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<TimingInfo> auto& value) {
+void fields(auto& archive, Is<TimingInfo> auto& value) {
   archive("frames", value.frames);
   archive("processes", value.processes);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<AnimationWay> auto& value) {
+void fields(auto& archive, Is<AnimationWay> auto& value) {
   archive("path", value.path);
   archive("axis", value.axis);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<PublishedFigure> auto& value) {
+void fields(auto& archive, Is<PublishedFigure> auto& value) {
   archive("figure", value.figure);
   archive("measure", value.measure);
   archive("unit", value.unit);
@@ -285,15 +268,13 @@ void fields(Archive& archive, Is<PublishedFigure> auto& value) {
   archive("note", value.note);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ClaimFigure> auto& value) {
+void fields(auto& archive, Is<ClaimFigure> auto& value) {
   archive("measure", value.measure);
   archive("value", value.value);
   archive("at_noise_floor", value.at_noise_floor);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ClaimOutcome> auto& value) {
+void fields(auto& archive, Is<ClaimOutcome> auto& value) {
   archive("name", value.name);
   archive("text", value.text);
   archive("inequality", value.inequality);
@@ -307,8 +288,7 @@ void fields(Archive& archive, Is<ClaimOutcome> auto& value) {
   archive("figures", value.figures);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<SecondVerdict> auto& value) {
+void fields(auto& archive, Is<SecondVerdict> auto& value) {
   archive("claim", value.claim);
   archive("gpu", value.gpu);
   archive("left", value.left);
@@ -317,8 +297,7 @@ void fields(Archive& archive, Is<SecondVerdict> auto& value) {
   archive("problem", value.problem);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ThresholdOutcome> auto& value) {
+void fields(auto& archive, Is<ThresholdOutcome> auto& value) {
   archive("measure", value.measure);
   archive("limit", value.limit);
   archive("measured", value.measured);
@@ -326,8 +305,7 @@ void fields(Archive& archive, Is<ThresholdOutcome> auto& value) {
   archive("problem", value.problem);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<ExperimentReport> auto& value) {
+void fields(auto& archive, Is<ExperimentReport> auto& value) {
   archive("name", value.name);
   archive("title", value.title);
   archive("description", value.description);
@@ -338,6 +316,185 @@ void fields(Archive& archive, Is<ExperimentReport> auto& value) {
   archive("second_verdicts", value.second_verdicts);
   archive("thresholds", value.thresholds);
   archive("pictures", value.pictures);
+}
+
+template <class Archive>
+void fields(Archive& archive, Is<Results> auto& value) {
+  archive.derived("schema", results_schema);
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("reference", value.reference);
+  archive("footprint", value.footprint);
+  archive("timing", value.timing);
+  archive("way", value.way);
+  archive("film", value.film);
+  archive.derived("experiment", value.experiment);  // judged again from the figures
+  if constexpr (!Archive::reads) archive.derived("ranking_warnings", ranking_warnings(value));
+  archive("error_scale", value.error_scale);
+  archive("error_scales", value.error_scales);
+  archive("supersampling", value.supersampling);
+  archive("records", value.records);
+  archive("pairs", value.pairs);
+  archive("ndf", value.ndf);
+  archive("quantities", value.quantities);
+  archive("files", value.files);
+}
+
+void fields(auto& archive, const MatrixMember& value) {
+  archive("folder", value.folder);
+  archive("coordinates", value.results.coordinates);
+  archive("scene", value.results.scene.name);
+  archive("footprint", value.results.footprint);
+  archive("spp", value.results.reference.spp);
+  archive("seed", value.results.reference.seed);
+  archive("records", value.results.records.size());
+}
+
+void fields(auto& archive, const MatrixResults& value) {
+  archive("schema", "footprint-matrix/1");
+  archive("tool", value.members.front().results.tool);
+  archive("backend", value.members.front().results.backend);
+  archive("experiment", value.report);
+  archive("left_out", value.left_out);
+  archive("members", value.members);
+}
+
+void fields(auto& archive, const NdfImages& value) {
+  archive("density", value.density);
+  archive("picture", value.picture);
+  archive("difference", value.difference);
+}
+
+void fields(auto& archive, const NdfRecord& value) {
+  archive("l2", value.l2);
+  archive("energy", value.energy);
+  archive("peak", value.peak);
+  archive("lobes", value.lobes);
+  archive("options", value.options);
+  archive("images", value.images);
+}
+
+void fields(auto& archive, const ExactNdfRecord& value) {
+  archive("energy", value.energy);
+  archive("expected_energy", value.expected_energy);
+  archive("peak", value.peak);
+  archive.group("images", [&](auto& images) {
+    images("density", value.images.density);
+    images("picture", value.images.picture);
+  });
+}
+
+void fields(auto& archive, const NdfResults& value) {
+  std::vector<std::pair<std::string, NdfRecord>> methods;
+  for (const NdfRecord& record : value.records) methods.emplace_back(record.method, record);
+  archive("schema", ndf_schema);
+  archive("tool", ToolInfo{.name = "footprint", .version = value.version});
+  archive.group("source", [&](auto& source) {
+    source("path", value.source);
+    source("kind", value.kind);
+    source("material", value.material);
+    source("width", value.map_size[0]);
+    source("height", value.map_size[1]);
+  });
+  archive.group("lobe", [&](auto& lobe) {
+    lobe("narrowest", value.lobe);
+    lobe("varies", value.lobe_varies);
+  });
+  archive.group("footprint", [&](auto& footprint) {
+    footprint("u0", value.footprint[0]);
+    footprint("v0", value.footprint[1]);
+    footprint("u1", value.footprint[2]);
+    footprint("v1", value.footprint[3]);
+  });
+  archive.group("texels", [&](auto& texels) {
+    texels("area", value.texels);
+    texels("valid_share", value.valid_share);
+    texels("distinct", value.facets);
+  });
+  archive.group("fetch", [&](auto& fetch) {
+    fetch("level", value.level);
+    fetch("filter", value.filter);
+  });
+  archive.group("grid", [&](auto& grid) {
+    grid("resolution", value.resolution);
+    grid("directions", value.directions);
+    grid("fine_enough", value.fine_enough);
+  });
+  archive.group("pictures", [&](auto& pictures) {
+    pictures("scale", value.scale);
+    pictures("strip", value.strip);
+  });
+  archive("truth", value.exact);
+  archive("methods", methods);
+  archive("notes", value.notes);
+}
+
+void fields(auto& archive, const Candidate& value) {
+  archive("method", value.method);
+  archive("footprint", value.footprint);
+  archive("errors", value.errors);
+  archive("error", value.error);
+  archive("worst", value.worst);
+  archive("noise", value.noise);
+  archive("cost", value.cost);
+  archive("bytes", value.bytes);
+  archive("bake_seconds", value.bake_seconds);
+}
+
+void fields(auto& archive, const Limits& value) {
+  archive("max_error", value.max_error);
+  archive("max_cost", value.max_cost);
+  archive("gpu", value.gpu);
+  archive("max_bytes", value.max_bytes);
+}
+
+void fields(auto& archive, const LeftOutMethod& value) {
+  archive("method", value.method);
+  archive("reason", value.reason);
+}
+
+/// The advice with its sentences.
+struct WrittenAdvice {
+  MaterialAdvice advice;
+  std::vector<std::string> words;
+};
+
+void fields(auto& archive, const WrittenAdvice& value) {
+  const MaterialAdvice& advice = value.advice;
+  archive("material", advice.material);
+  archive("distances", advice.distances);
+  archive("pixels", advice.pixels);
+  archive("chosen", advice.choice.chosen);
+  archive("tied", advice.choice.tied);
+  archive("better", advice.choice.better);
+  archive("nearest", advice.choice.nearest);
+  archive("filter_nothing", advice.choice.filter_nothing);
+  archive("closer_than_plain", advice.closer_than_plain);
+  archive("command", advice.command);
+  archive("words", value.words);
+  archive("candidates", advice.candidates);
+}
+
+void fields(auto& archive, const Recommendation& value) {
+  std::vector<WrittenAdvice> materials;
+  for (const MaterialAdvice& advice : value.materials)
+    materials.push_back({advice, advice_sentences(advice, value.limits)});
+  archive("schema", "footprint-recommend/1");
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("reference", value.reference);
+  archive("size", std::tie(value.width, value.height));
+  archive("distances", value.distances);
+  archive("limits", value.limits);
+  archive("exhaustive", value.exhaustive);
+  archive("tried", value.tried);
+  archive("measured", value.measured);
+  archive("coarse", value.coarse);
+  archive("left_out", value.left_out);
+  archive("reports", value.reports);
+  archive("materials", materials);
 }
 
 }  // namespace footprint

@@ -39,29 +39,6 @@ std::string text_in(const nlohmann::json& object, const char* key) {
 
 }  // namespace
 
-template <class Archive>
-void fields(Archive& archive, Is<Results> auto& value) {
-  archive.derived("schema", results_schema);
-  archive("tool", value.tool);
-  archive("backend", value.backend);
-  archive("scene", value.scene);
-  archive("reference", value.reference);
-  archive("footprint", value.footprint);
-  archive("timing", value.timing);
-  archive("way", value.way);
-  archive("film", value.film);
-  archive.derived("experiment", value.experiment);  // judged again from the figures
-  if constexpr (!Archive::reads) archive.derived("ranking_warnings", ranking_warnings(value));
-  archive("error_scale", value.error_scale);
-  archive("error_scales", value.error_scales);
-  archive("supersampling", value.supersampling);
-  archive("records", value.records);
-  archive("pairs", value.pairs);
-  archive("ndf", value.ndf);
-  archive("quantities", value.quantities);
-  archive("files", value.files);
-}
-
 nlohmann::ordered_json json_number(const std::optional<double>& value) { return to_json_value(value); }
 
 nlohmann::ordered_json results_document(const Results& results) { return to_json_value(results); }

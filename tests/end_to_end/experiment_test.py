@@ -64,9 +64,9 @@ class Experiments(WholeRunTest):
         bounded = " ".join(t["measure"] for t in results["experiment"]["thresholds"])
         for method in listed:
             self.assertIn(f"error({method['name']})", bounded)
-        self.assert_holds_to_schema(out)
+        self.assert_matches_schema(out)
 
-    def assert_holds_to_schema(self, out):
+    def assert_matches_schema(self, out):
         validator = SOURCE / "tests" / "report" / "schema_test.py"
         command = ["/usr/bin/python3", "-B", validator, SOURCE / "docs" / "results.schema.json", out / "results.json"]
         done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
@@ -210,7 +210,7 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         width, height = picture_facts([str(out / "images/figure.png")])[str(out / "images/figure.png")]["size"]
         self.assertGreater(width, 3 * 300)  # 16 pixels per side, enlarged by whole factors
         self.assertGreater(height, 300 + 600)
-        self.assert_holds_to_schema(out)
+        self.assert_matches_schema(out)
 
     def test_quick_says_that_it_is_no_measurement(self):
         file = self.folder / "quick_of_small.toml"

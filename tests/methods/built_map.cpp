@@ -69,7 +69,7 @@ void turn_meshes(Scene& scene, const glm::mat3& by) {
 
 BuiltMap::BuiltMap(const Scene& scene, const Words& words)
     : values_(scene),
-      options_(xu_vmf_method().info().options, words, "xu_vmf"),
+      options_(xu_vmf_method().info.options, words, "xu_vmf"),
       variant_{.effects = effects_of_map(scene.materials[0]), .brdf = scene.materials[0].brdf},
       scene_(shared_context().info(), scene, variant_.effects),
       baked_(xu_vmf_method().precompute_on(scene, 0, options_, variant_.effects, no_progress)),
@@ -121,7 +121,7 @@ std::string BuiltMap::shader_text() const {
   text += fmt::format(
       "const vec4 lobe_cutoff = vec4({:e});\nconst float option_eps0 = {:e};\nconst float option_eps1 = {:e};\n",
       lobe_of(values_.materials[0]).parameter, options_.number("eps0"), options_.number("eps1"));
-  return text + shared_functions(shader_flags(variant_, options_, baked_), xu_vmf_method().shader());
+  return text + shared_functions(shader_flags(variant_, options_, baked_), xu_vmf_method().shader);
 }
 
 std::vector<glm::vec4> BuiltMap::probe(const std::string& body, const ProbeInputs& inputs) const {

@@ -53,7 +53,7 @@ constexpr BaseBrdf lambert{NormalDistribution::ggx, GeometryTerm::none, FresnelT
 class UnderAnEnvironment : public ::testing::TestWithParam<const Method*> {
  protected:
   void SetUp() override {
-    if (!has(GetParam()->info().honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
+    if (!has(GetParam()->info.honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
   }
   /// `count` of `distributions` for the method by default, others for the next method.
   template <std::size_t N>
@@ -146,7 +146,7 @@ TEST_P(UnderAnEnvironment, IsNearTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, UnderAnEnvironment, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& test) { return test.param->info().name; });
+                         [](const auto& test) { return test.param->info.name; });
 
 // A sun of one texel in 512 columns that has a third of all light, whose mirror image in the square is in
 // the image.

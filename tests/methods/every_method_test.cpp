@@ -85,7 +85,7 @@ TEST_P(EveryMethod, KnowsLightFromBelowTheHorizonByTheScenesRule) {
 
 // Near a map that is flat where the camera looks.
 TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
-  if (!GetParam()->info().resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
+  if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   Image normals = random_normals(64, 64, 0.5F, 2);
   for (int y = 24; y < 40; ++y) {
     for (int x = 24; x < 40; ++x) {
@@ -130,7 +130,7 @@ TEST_P(EveryMethod, IsDeterministic) {
   const Scene scene = square_scene(random_normals(64, 48, 0.5F, 4), {});
   EXPECT_EQ(TestRenderer(scene).frame(*GetParam()), TestRenderer(scene).frame(*GetParam()));
   const EffectSet set = effects_on(derive_effects(scene));
-  const Options options(GetParam()->info().options, {}, "test");
+  const Options options(GetParam()->info.options, {}, "test");
   EXPECT_EQ(GetParam()->precompute(scene.materials[0], options, set, no_progress),
             GetParam()->precompute(scene.materials[0], options, set, no_progress));
 }
@@ -148,7 +148,7 @@ TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
   TestRenderer& renderer = shared_renderer("random", [] { return square_scene(random_normals(64, 64, 0.5F, 5), {}); });
   static const Image reference = renderer.reference(64).mean;  // the same for all methods
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
-  if (GetParam()->info().resolves_texels) {
+  if (GetParam()->info.resolves_texels) {
     EXPECT_LT(compare_images(finest, reference, 1.0F).value().relative_rmse, 0.05);
   } else {
     EXPECT_NEAR(mean_of_colours(finest) / mean_of_colours(reference), 1.0, 0.05);
@@ -164,7 +164,7 @@ TEST_P(EveryMethod, TakesAnisotropicProbes) {
 }
 
 TEST_P(EveryMethod, DescribesItself) {
-  const MethodInfo& info = GetParam()->info();
+  const MethodInfo& info = GetParam()->info;
   EXPECT_EQ(&find_method(info.name), GetParam());
   EXPECT_TRUE(info.summary.ends_with('.')) << info.summary;
   for (const OptionSpec& option : info.options) EXPECT_FALSE(option.meaning.empty()) << option.name;
@@ -172,7 +172,7 @@ TEST_P(EveryMethod, DescribesItself) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryMethod, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& test) { return test.param->info().name; });
+                         [](const auto& test) { return test.param->info.name; });
 
 }  // namespace
 }  // namespace footprint::testing

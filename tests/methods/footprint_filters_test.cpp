@@ -51,7 +51,7 @@ TEST_P(FootprintFilters, OnePartIsTheWhole) {
 
 // For every method: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
 TEST_P(FootprintFilters, PartsConvergeToTheReference) {
-  if (!GetParam()->info().resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
+  if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
   TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel", scene, {16, 16});
   static const Image reference =
@@ -79,7 +79,7 @@ TEST_P(FootprintFilters, HaveNothingToDoWhereNothingVaries) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, FootprintFilters, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& tested) { return tested.param->info().name; });
+                         [](const auto& tested) { return tested.param->info.name; });
 
 // The sampler of a filter does not change lookups at a level of the module's own choice: direct's finest, and the
 // parts of the hemisphere that a walk of Xu's method visits. Hardware gets the footprint from coordinates and picks

@@ -68,8 +68,8 @@ std::vector<SquareMaterial> white_materials() {
 class InAWhiteFurnace : public ::testing::TestWithParam<const Method*> {};
 
 TEST_P(InAWhiteFurnace, KeepsItsEnergyWithinTheBoundOfItsReadme) {
-  const std::string& name = GetParam()->info().name;
-  if (!has(GetParam()->info().honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
+  const std::string& name = GetParam()->info.name;
+  if (!has(GetParam()->info.honours, Effect::environment_light)) GTEST_SKIP() << "leaves environment light out";
   const double bound = stated_bound(name);
   ASSERT_TRUE(std::isfinite(bound)) << "methods/" << name << "/README.md has no `White furnace: within X%`";
   for (const SquareMaterial& material : white_materials()) {
@@ -86,7 +86,7 @@ TEST_P(InAWhiteFurnace, KeepsItsEnergyWithinTheBoundOfItsReadme) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, InAWhiteFurnace, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& test) { return test.param->info().name; });
+                         [](const auto& test) { return test.param->info.name; });
 
 // Where the horizon is open every facet has a hemisphere of its own: white Lambert facets reflect all of the furnace,
 // however they lean. Where it cuts they lose (1 - n_z) / 2.

@@ -91,7 +91,7 @@ Inspection& shared_inspection(const std::string& key, const std::function<Inspec
 
 class EveryMethodsNdf : public ::testing::TestWithParam<const Method*> {
  protected:
-  static const std::string& name() { return GetParam()->info().name; }
+  static const std::string& name() { return GetParam()->info.name; }
   /// `count` of `lobes` for the method by default, others for the next method.
   static std::vector<Lobe> some(const std::vector<Lobe>& lobes, std::size_t count) {
     return sweep(lobes, count, count * method_number(*GetParam()));
@@ -141,7 +141,7 @@ Material with_two_lobes(Image normals) {
 }
 
 TEST_P(EveryMethodsNdf, HasTheLobesOverAConstantMap) {
-  if (!has(GetParam()->info().honours, Effect::multi_lobe)) GTEST_SKIP();
+  if (!has(GetParam()->info.honours, Effect::multi_lobe)) GTEST_SKIP();
   for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0, 0.28F, 0.96F)}) {
     const NdfFigures figures = Inspection(with_two_lobes(constant_normals(16, 16, normal))).figures(name());
     EXPECT_LT(figures.l2, 1e-3) << normal.y;
@@ -150,10 +150,10 @@ TEST_P(EveryMethodsNdf, HasTheLobesOverAConstantMap) {
 }
 
 TEST_P(EveryMethodsNdf, KeepsTheEnergyOfSeveralLobesOverBumps) {
-  if (!has(GetParam()->info().honours, Effect::multi_lobe)) GTEST_SKIP();
+  if (!has(GetParam()->info.honours, Effect::multi_lobe)) GTEST_SKIP();
   const Surface& bumps = find_surface(all_surfaces(), "bumps");
   SurfaceSettings settings = surface_settings(bumps, {});
-  settings.resolution = GetParam()->info().slow_frame ? 32 : 64;
+  settings.resolution = GetParam()->info.slow_frame ? 32 : 64;
   EXPECT_NEAR(
       Inspection(with_two_lobes(surface_normals(bumps, settings)), whole_map, energy_rings).figures(name()).energy, 1.0,
       0.01);
@@ -178,7 +178,7 @@ TEST(WideningMethodsNdf, KeepTheEnergyOfSeveralMicrofacetLobes) {
                     {.axis = {-0.28F, 0.0F, 0.96F}, .parameter = 0.06F, .weight = 0.25F}};
   Inspection inspection(material);
   for (const char* const method : widening_methods) {
-    if (!has(find_method(parse_methods(method).front().name).info().honours, Effect::multi_lobe)) continue;
+    if (!has(find_method(parse_methods(method).front().name).info.honours, Effect::multi_lobe)) continue;
     EXPECT_NEAR(inspection.figures(method).energy, 1.0, 0.01) << method;
   }
 }
@@ -228,7 +228,7 @@ double difference_by_part(const Material& material, const std::string& method, c
 // Methods of which a part of a map may be baked for itself have the same density from it, for any content at the map's
 // border. The density of the part next to it differs: the comparison sees which texels are taken.
 TEST_P(EveryMethodsNdf, IsTheSameFromThePartThatIsLookedAt) {
-  if (!GetParam()->info().bakes_by_texel) GTEST_SKIP();
+  if (!GetParam()->info.bakes_by_texel) GTEST_SKIP();
   using enum FootprintFilterKind;
   constexpr std::array<FootprintFilter, 4> filters{{{trilinear, 1}, {anisotropic, 8}, {box, 2}, {ewa, 4}}};
   Material material = material_of(random_normals(32, 32, 0.5F, 6), {blinn_phong, 64});
@@ -289,8 +289,8 @@ TEST_P(SurfaceNdfs, KeepTheExactEnergy) {
   Inspection inspected = inspection(128, energy_rings), small = inspection(48, energy_rings);
   for (const Method* method : all_methods()) {
     const NdfFigures figures =
-        (method->info().slow_frame || method->info().slow_precompute ? small : inspected).figures(method->info().name);
-    EXPECT_NEAR(figures.energy, 1.0, 0.01) << method->info().name << ", L2 " << figures.l2;
+        (method->info.slow_frame || method->info.slow_precompute ? small : inspected).figures(method->info.name);
+    EXPECT_NEAR(figures.energy, 1.0, 0.01) << method->info.name << ", L2 " << figures.l2;
   }
 }
 
@@ -318,7 +318,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, SurfaceNdfs,
                          });
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryMethodsNdf, ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
-                         [](const auto& test) { return test.param->info().name; });
+                         [](const auto& test) { return test.param->info.name; });
 
 }  // namespace
 }  // namespace footprint::testing

@@ -141,10 +141,10 @@ TEST(NormalLayers, AreLeftOutByTheOthers) {
   TestRenderer without(bare, {16, 16});
   for (const Method* method : all_methods()) {
     const double difference = largest_difference(with.frame(*method), without.frame(*method));
-    if (has(method->info().honours, Effect::normal_layers)) {
-      EXPECT_GT(difference, 1e-2) << method->info().name;
+    if (has(method->info.honours, Effect::normal_layers)) {
+      EXPECT_GT(difference, 1e-2) << method->info.name;
     } else {
-      EXPECT_EQ(difference, 0.0) << method->info().name;
+      EXPECT_EQ(difference, 0.0) << method->info.name;
     }
   }
 }
@@ -156,7 +156,7 @@ TEST(NormalLayers, InvalidTexelsDoNotCount) {
   const Image normals = random_normals(8, 8, 0.3F, 11);
   TestRenderer renderer(layered_scene(normals, layer, 1.0F), {16, 16});
   for (const Method* method : all_methods()) {
-    for (const float value : renderer.frame(*method).texels) ASSERT_TRUE(std::isfinite(value)) << method->info().name;
+    for (const float value : renderer.frame(*method).texels) ASSERT_TRUE(std::isfinite(value)) << method->info.name;
   }
   for (const float value : renderer.reference(16).mean.texels) ASSERT_TRUE(std::isfinite(value));
 }

@@ -61,7 +61,7 @@ struct Errors {
 class TwoChannelChains : public ::testing::Test {
  protected:
   Errors errors_of(const Method& method) {
-    const std::string& name = method.info().name;
+    const std::string& name = method.info.name;
     const MethodSpec spec = parse_methods(name).front();
     const EffectSet effects = effects_on(derive_effects(scene_));
     const BakedMethod baked = bake(method, spec, scene_, effects, no_progress);
@@ -96,7 +96,7 @@ TEST_F(TwoChannelChains, ChangeThoseWhoReadAMeanNormal) {
   const std::set<std::string> readers{"naive_mip", "fixed_brdf", "toksvig", "roughness_bake", "specular_aa"};
   std::map<std::string, Errors> found;
   for (const Method* method : all_methods()) {
-    const std::string& name = method->info().name;
+    const std::string& name = method->info.name;
     if (name == "xu_vmf") continue;  // nothing of it is baked; it reads the finest level alone
     const Errors errors = found[name] = errors_of(*method);
     std::printf("two channels | `%s` | %.4f | %.4f | %.4f |\n", name.c_str(), errors.stored, errors.rebuilt,

@@ -264,11 +264,11 @@ std::vector<ShaderGuard> slope_guards() {
 
 std::vector<ShaderGuard> method_guards() {
   constexpr std::string_view convolution = "return vec4(sgConvolution(vec3(0.0, 0.0, 1.0), a.x, b.xyz, a.x));";
-  const ShaderModule iwasaki = iwasaki_sg_method().shader();
+  const ShaderModule iwasaki = iwasaki_sg_method().shader;
   const std::string gaussians =
       functions_of(vmf, GeometryTerm::none, {"test.glsl", "//? include iwasaki_sg_lobes.glsl\n", iwasaki.folder});
   const std::string component =
-      part_of(tan_gmm_method().shader(), "// A Gaussian over the disc.", "// The height of the hemisphere");
+      part_of(tan_gmm_method().shader, "// A Gaussian over the disc.", "// The height of the hemisphere");
   const std::string recovered = functions_with(component);
   constexpr double sharp = 1e6;
   const glm::vec4 beside = leaning_by(5e-4);

@@ -3,8 +3,8 @@
 schema_test.py SCHEMA PROGRAM    with the examples that PROGRAM writes
 schema_test.py SCHEMA X.json     with a run's own results
 
-A written document validates, and documents that are broken in one place each do not. Exit code 77 (skipped)
-without the package python3-jsonschema.
+A written document validates, and documents that break a limit or a condition in one place each do not. The structure
+of the schemas is the subject of footprint_schemas_test. Exit code 77 (skipped) without the package python3-jsonschema.
 """
 
 import copy
@@ -23,45 +23,19 @@ except ImportError:
     sys.exit(SKIPPED)
 
 
-def described(node, place):
-    """Every property says what it is, and every object says which keys it takes."""
-    assert node.get("description"), f"{place} has no description"
-    if "object" in node.get("type", ""):
-        assert "additionalProperties" in node, f"{place} takes any key"
-    for name, child in node.get("properties", {}).items():
-        described(child, f"{place}/{name}")
-        assert name in node["required"], f"{place}/{name} may be left out"
-    if "items" in node:
-        described(node["items"], f"{place}/items")
-
-
 MATRIX_CHANGES = {
-    "an unknown key": lambda d: d.update(extra=1),
     "another schema": lambda d: d.update(schema="footprint-matrix/0"),
     "no members": lambda d: d.update(members=[]),
-    "no experiment": lambda d: d.update(experiment=None),
-    "a member without its folder": lambda d: d["members"][0].pop("folder"),
-    "a coordinate that is not text": lambda d: d["members"][0]["coordinates"].update(seed=1),
     "a member without records": lambda d: d["members"][0].update(records=0),
-    "a threshold without its limit": lambda d: d["experiment"]["thresholds"][0].pop("limit"),
-    "a number for what was left out": lambda d: d.update(left_out=[1]),
 }
 
 
 FILM_CHANGES = {
     "another path": lambda d: d["way"].update(path="walk"),
-    "an axis of two": lambda d: d["way"].update(axis=[0, 1]),
-    "a way without its axis": lambda d: d["way"].pop("axis"),
-    "a number for a film": lambda d: d.update(film=1),
-    "a missing cause": lambda d: d["records"][4]["flicker"].pop("edges"),
-    "an unknown cause": lambda d: d["records"][4]["flicker"].update(luck=0),
     "a flicker above 2": lambda d: d["records"][4]["flicker"].update(mean=2.5),
-    "a cause without its percentile": lambda d: d["records"][4]["flicker"]["shading"].pop("p99"),
     "an error above 1": lambda d: d["records"][4]["error"].update(normalized_color=1.5),
     "a negative highlight": lambda d: d["records"][0].update(highlight_energy=-1),
-    "half a frame": lambda d: d["records"][0].update(frame=0.5),
     "an angle that is not a number": lambda d: d["records"][0].update(degrees=None),
-    "no pixels": lambda d: d["records"][0].pop("pixels"),
     "one time of three": lambda d: d["records"][0]["time"]["frame_ms"].update(p90=1),
 }
 
@@ -74,35 +48,20 @@ def broken(document):
         return changed(document, FILM_CHANGES)
     changes = {
         "an unknown key": lambda d: d.update(extra=1),
-        "an unknown key in a record": lambda d: d["records"][0]["time"].update(gpu_ms=1),
         "a missing key": lambda d: d["records"][0]["error"].pop("psnr"),
         "another schema": lambda d: d.update(schema="footprint-results/0"),
-        "text for a number": lambda d: d["supersampling"][0].update(ms="1.0"),
         "a negative time": lambda d: d["records"][0]["time"]["frame_ms"].update(median=-1),
         "an error above 1": lambda d: d["records"][0]["error"].update(normalized_color=1.5),
-        "three sides": lambda d: d["records"][0].update(size=[1, 2, 3]),
         "null for a time": lambda d: d["records"][0]["time"]["frame_ms"].update(p90=None),
-        "a ratio of 0": lambda d: d["records"][0]["time"]["ratio_to_direct"].update(min=0),
-        "an option that is a list": lambda d: d["records"][0]["options"].update(probes=[1]),
+        "a ratio of 0": lambda d: d["records"][0]["time"]["ratio_to_direct"].update(low=0),
         "a bound of another kind": lambda d: d["records"][0].update(equivalent_bound="many"),
-        "samples that are not a whole number": lambda d: d["reference"].update(spp=1.5),
         "no sample": lambda d: d["reference"].update(spp=0),
         "a frame before the first": lambda d: d["records"][0].update(frame=-1),
-        "half a frame": lambda d: d["records"][0].update(frame=1.5),
-        "one side": lambda d: d["records"][0].update(size=[512]),
         "no width": lambda d: d["records"][0].update(size=[0, 512]),
-        "no pictures": lambda d: d["records"][0].pop("images"),
-        "an option that is neither number nor text": lambda d: d["records"][0]["options"].update(probes=True),
-        "records that are not a list": lambda d: d.update(records={}),
-        "a number for a warning": lambda d: d["scene"].update(warnings=[1]),
-        "a number for a flag": lambda d: d["records"][0]["precompute"].update(cached=1),
         "another timing of frame builds": lambda d: d["records"][0]["time"].update(frame_build="sometimes"),
     }
     if document["experiment"] and document["experiment"]["claims"]:  # a run's own results may have none
-        changes |= {
-            "a claim that may come out": lambda d: d["experiment"]["claims"][0].update(outcome="maybe"),
-            "an undecided expectation": lambda d: d["experiment"]["claims"][0].update(expect="undecided"),
-        }
+        changes["an undecided expectation"] = lambda d: d["experiment"]["claims"][0].update(expect="undecided")
     return changed(document, changes)
 
 
@@ -139,7 +98,6 @@ def documents(schema_file, source):
 def main(schema_file, source):
     schema = json.loads(pathlib.Path(schema_file).read_text(encoding="utf-8"))
     jsonschema.Draft7Validator.check_schema(schema)
-    described(schema, "")
     validator = jsonschema.Draft7Validator(schema)
     for title, document in documents(schema_file, source):
         validator.validate(document)

@@ -23,7 +23,7 @@ EffectSet ProbedMethod::default_effects() {
 std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::string& body,
                                     std::span<const std::array<glm::vec4, 3>> inputs) {
   const gl::Context& context = shared_context();
-  const Options options(probed.method->info().options, probed.options, probed.method->info().name);
+  const Options options(probed.method->info.options, probed.options, probed.method->info.name);
   ShaderVariant variant;
   variant.brdf = probed.material->brdf;
   variant.effects = probed.effects;
@@ -52,7 +52,7 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
     text += fmt::format("const vec2 {0}[{1}] = vec2[{1}]({2});\n", name, values.size(), list);
   }
   text += fmt::format("const vec4 lobe_cutoff = vec4({:e});\n", lobe_of(*probed.material).parameter) +
-          shared_functions(shader_flags(variant, options, baked), probed.method->shader());
+          shared_functions(shader_flags(variant, options, baked), probed.method->shader);
   const std::string footprint = fmt::format(
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
       "Effective e = effective(Footprints(whole_map, whole_map, whole_map{}));\n",

@@ -42,7 +42,7 @@ TestRenderer::TestRenderer(const Scene& scene, const glm::ivec2& size, std::opti
       gpu_scene_(context.info(), scene_, effects_) {}
 
 BakedMethod TestRenderer::baked(const Method& method, const std::string& text) const {
-  const MethodSpec spec = parse_methods(text.empty() ? method.info().name : text).front();
+  const MethodSpec spec = parse_methods(text.empty() ? method.info.name : text).front();
   return bake(method, spec, scene_, effects_, no_progress);
 }
 

@@ -19,7 +19,7 @@ using testing::patch_of;
 
 // The largest difference between the two over the largest value.
 double shader_difference(const Material& material, const std::map<std::string, std::string>& given) {
-  const Options options(iwasaki_sg_method().info().options, given, "test");
+  const Options options(iwasaki_sg_method().info.options, given, "test");
   EffectSet effects = patch_effects(material) | testing::ProbedMethod::default_effects();
   effects.reset(static_cast<std::size_t>(Effect::masking_shadowing));
   const TableSettings settings = table_settings(material, options, effects);

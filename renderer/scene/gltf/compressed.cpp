@@ -122,9 +122,9 @@ std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, int view_inde
       refuse_gltf(draco_extension, fmt::format("its data cannot be decoded: {:.200}", mesh.status().error_msg()));
     return std::move(mesh).value();
   } catch (const std::bad_alloc&) {
-    refuse_gltf(draco_extension, "its data cannot be decoded: it asks for more memory than there is");
+    refuse_gltf(draco_extension, "its data cannot be decoded: it needs more memory than there is");
   } catch (const std::length_error&) {
-    refuse_gltf(draco_extension, "its data cannot be decoded: it asks for more memory than there is");
+    refuse_gltf(draco_extension, "its data cannot be decoded: it needs more memory than there is");
   }
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr NumberRange repeats{1e-3, 1e4};  // of a map along u or v
 constexpr NumberRange lobe_weight{1e-6, 1e3};
+constexpr NumberRange seed_range{0.0, std::numeric_limits<std::uint32_t>::max()};
 
 constexpr double lowest_axis = 1e-3;  // half of a lobe on the horizon would be below it
 
@@ -24,30 +25,22 @@ constexpr std::array<Word<NormalChannels>, 2> normal_channels{
     {{NormalChannels::xyz, "xyz"}, {NormalChannels::xy, "xy"}}};
 
 ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
-  ModelSettings model;
-  model.candidates = read_candidates(table, folder, "name the model file to draw");
-  model.package = table.word("package").value_or("");
-  model.unwrap = table.boolean("unwrap").value_or(false);
-  model.selection = {table.word("scene"), table.word("camera"), table.word("variant")};
-  return model;
+  return {.candidates = read_candidates(table, folder, "name the model file to draw"),
+          .package = table.word("package").value_or(""),
+          .unwrap = table.boolean("unwrap").value_or(false),
+          .selection = {table.word("scene"), table.word("camera"), table.word("variant")}};
 }
 
 PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& folder) {
   PlaneSettings plane;
-  if (const auto size = table.numbers("size", 2, length_range)) plane.size = {(*size)[0], (*size)[1]};
-  const auto file = [&](std::string_view key) -> std::optional<std::filesystem::path> {
-    const auto name = table.word(key);
-    return name ? std::optional{folder / *name} : std::nullopt;
-  };
-  plane.normal_map = file("normal_map");
-  plane.base_color_map = file("base_color_map");
-  plane.metallic_roughness_map = file("metallic_roughness_map");
-  if (const auto channels = table.choice("normal_channels", word_names(normal_channels))) {
-    plane.normal_channels = normal_channels.at(*channels).value;
-  }
-  plane.normal_scale = table.number("normal_scale", {-100.0, 100.0}).value_or(plane.normal_scale);
-  plane.roughness = static_cast<float>(table.number("roughness", unit_range).value_or(plane.roughness));
-  plane.metallic = static_cast<float>(table.number("metallic", unit_range).value_or(plane.metallic));
+  assign(plane.size, read_pair(table, "size", length_range));
+  plane.normal_map = read_path(table, "normal_map", folder);
+  plane.base_color_map = read_path(table, "base_color_map", folder);
+  plane.metallic_roughness_map = read_path(table, "metallic_roughness_map", folder);
+  assign(plane.normal_channels, read_word(table, "normal_channels", normal_channels));
+  assign(plane.normal_scale, table.number("normal_scale", {-100.0, 100.0}));
+  assign(plane.roughness, table.number("roughness", unit_range));
+  assign(plane.metallic, table.number("metallic", unit_range));
   return plane;
 }
 
@@ -121,11 +114,9 @@ std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDis
 /// The settings that all parts share.
 BrdfSettings read_common_brdf(const TomlTable& table) {
   BrdfSettings brdf;
-  if (const auto i = table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf"})) {
-    brdf.distribution = static_cast<NormalDistribution>(*i);
-  }
-  if (const auto i = table.choice("geometry", {"none", "tan", "smith"})) brdf.geometry = static_cast<GeometryTerm>(*i);
-  if (const auto i = table.choice("fresnel", {"none", "schlick"})) brdf.fresnel = static_cast<FresnelTerm>(*i);
+  assign(brdf.distribution, table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf"}));
+  assign(brdf.geometry, table.choice("geometry", {"none", "tan", "smith"}));
+  assign(brdf.fresnel, table.choice("fresnel", {"none", "schlick"}));
   brdf.diffuse = table.boolean("diffuse");
   return brdf;
 }
@@ -146,11 +137,9 @@ BrdfSettings read_own_brdf(const TomlTable& table, const BrdfSettings& common) {
 std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, const std::filesystem::path& folder) {
   const auto table = maps.table(key, {"file", "uv"});
   if (!table) return std::nullopt;
-  const auto name = table->word("file");
-  if (!name) refuse_missing(*table, "file");
-  MapFile map{folder / *name, std::nullopt};
-  if (const auto uv = table->numbers("uv", 2, repeats)) map.uv = {(*uv)[0], (*uv)[1]};
-  return map;
+  const auto file = read_path(*table, "file", folder);
+  if (!file) refuse_missing(*table, "file");
+  return MapFile{*file, read_pair(*table, "uv", repeats)};
 }
 
 MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder) {
@@ -200,20 +189,16 @@ SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> sur
   if (!index) refuse_missing(table, "name");
   const Surface& surface = surfaces[*index];
   SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
-  if (const auto resolution = table.whole_number("resolution", {1.0, largest_surface_resolution})) {
-    settings.resolution = static_cast<int>(*resolution);
-  }
-  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
-    settings.seed = static_cast<std::uint32_t>(*seed);
-  }
+  assign(settings.resolution, table.whole_number("resolution", {1.0, largest_surface_resolution}));
+  assign(settings.seed, table.whole_number("seed", seed_range));
   return {&surface, std::move(settings)};
 }
 
 WardSettings read_ward(const TomlTable& table) {
   WardSettings ward;
-  ward.alpha = table.number("alpha", {1e-2, 1.0}).value_or(ward.alpha);
-  ward.specular = read_color(table, "specular").value_or(ward.specular);
-  ward.diffuse = read_color(table, "diffuse").value_or(ward.diffuse);
+  assign(ward.alpha, table.number("alpha", {1e-2, 1.0}));
+  assign(ward.specular, read_color(table, "specular"));
+  assign(ward.diffuse, read_color(table, "diffuse"));
   return ward;
 }
 
@@ -231,21 +216,15 @@ MicrogeometrySettings read_microgeometry(const TomlTable& table, const std::file
     settings.model = folder / *table.word("model");
     if (table.has("parameters")) throw table.error_at("parameters", "belongs to a kind", "leave it out");
   }
-  if (const auto period = table.numbers("period", 2, length_range)) {
-    if (settings.kind != nullptr) throw table.error_at("period", "belongs to a model", "leave it out");
-    settings.period = glm::vec2{(*period)[0], (*period)[1]};
-  }
-  if (const auto file = table.word("measured")) settings.measured = folder / *file;
+  assign(settings.period, read_pair(table, "period", length_range));
+  if (settings.period && settings.kind != nullptr) throw table.error_at("period", "belongs to a model", "leave it out");
+  settings.measured = read_path(table, "measured", folder);
   if (const auto ward = table.table("ward", {"alpha", "specular", "diffuse"})) {
     if (settings.measured) throw table.error_at("ward", "excludes `measured`", "give one of the two");
     settings.ward = read_ward(*ward);
   }
-  if (const auto seed = table.whole_number("seed", {0.0, std::numeric_limits<std::uint32_t>::max()})) {
-    settings.seed = static_cast<std::uint64_t>(*seed);
-  }
-  if (const auto resolution = table.whole_number("resolution", {1.0, 4096.0})) {
-    settings.resolution = static_cast<int>(*resolution);
-  }
+  assign(settings.seed, table.whole_number("seed", seed_range));
+  assign(settings.resolution, table.whole_number("resolution", {1.0, 4096.0}));
   return settings;
 }
 
@@ -280,10 +259,10 @@ std::vector<MicrogeometrySettings> read_patches(const TomlTable& table, const Ma
 
 Placement read_placement(const TomlTable& table) {
   Placement placement;
-  placement.translation = read_vector(table, "translate", coordinate_range).value_or(placement.translation);
-  const auto degrees = read_vector(table, "rotate_degrees", {-360.0, 360.0});
-  placement.rotation = glm::radians(degrees.value_or(placement.rotation));
-  placement.scale = table.number("scale", length_range).value_or(placement.scale);
+  assign(placement.translation, read_vector(table, "translate", coordinate_range));
+  assign(placement.rotation, read_vector(table, "rotate_degrees", {-360.0, 360.0}));
+  placement.rotation = glm::radians(placement.rotation);
+  assign(placement.scale, table.number("scale", length_range));
   return placement;
 }
 
@@ -317,22 +296,22 @@ LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& fo
   }
   LayerSettings layer;
   if (surface) layer.content = read_surface(*surface, surfaces);
-  if (const auto name = table.word("normal_map")) layer.content = LayerFile{folder / *name, false};
-  if (const auto name = table.word("bump_map")) {
-    layer.content = LayerFile{folder / *name, true};
+  if (const auto file = read_path(table, "normal_map", folder)) layer.content = LayerFile{*file, false};
+  if (const auto file = read_path(table, "bump_map", folder)) {
+    layer.content = LayerFile{*file, true};
     // Heights need an explicit strength, because they range over four powers of ten.
     if (!table.has("strength")) refuse_missing(table, "strength");
   }
-  if (const auto uv = table.numbers("uv", 2, repeats)) layer.uv = {(*uv)[0], (*uv)[1]};
-  layer.strength = table.number("strength", {-100.0, 100.0}).value_or(layer.strength);
+  assign(layer.uv, read_pair(table, "uv", repeats));
+  assign(layer.strength, table.number("strength", {-100.0, 100.0}));
   return layer;
 }
 
 CoatSettings read_coat(const TomlTable& table, const std::filesystem::path& folder) {
   CoatSettings coat;
-  coat.weight = static_cast<float>(table.number("weight", unit_range).value_or(coat.weight));
-  coat.roughness = static_cast<float>(table.number("roughness", unit_range).value_or(coat.roughness));
-  if (const auto name = table.word("normal_map")) coat.normal_map = folder / *name;
+  assign(coat.weight, table.number("weight", unit_range));
+  assign(coat.roughness, table.number("roughness", unit_range));
+  coat.normal_map = read_path(table, "normal_map", folder);
   return coat;
 }
 
@@ -352,9 +331,7 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
   if (const auto coat = table.table("clear_coat", {"weight", "roughness", "normal_map"}))
     part.coat = read_coat(*coat, folder);
   part.microgeometry = read_patches(table, part.maps, folder);
-  if (const auto tiling = table.table("tiling", {"uv"})) {
-    if (const auto uv = tiling->numbers("uv", 2, repeats)) part.tiling = {(*uv)[0], (*uv)[1]};
-  }
+  if (const auto tiling = table.table("tiling", {"uv"})) assign(part.tiling, read_pair(*tiling, "uv", repeats));
   return part;
 }
 

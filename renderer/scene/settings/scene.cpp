@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "renderer/core/error.hpp"
@@ -23,17 +21,16 @@ struct OwnKeys {
   std::vector<std::string> keys;
 };
 
-const std::vector<OwnKeys>& own_keys() {
-  static const std::vector<OwnKeys> keys{{EnvironmentKind::file, {"file", "files", "package"}},
-                                         {EnvironmentKind::constant, {"color"}},
-                                         {EnvironmentKind::sky, {"sun_direction"}}};
-  return keys;
-}
+const std::vector<OwnKeys> own_keys{{EnvironmentKind::file, {"file", "files", "package"}},
+                                    {EnvironmentKind::constant, {"color"}},
+                                    {EnvironmentKind::sky, {"sun_direction"}}};
+const std::vector<std::string> environment_keys{"kind",    "intensity", "rotation_degrees", "file", "files",
+                                                "package", "color",     "sun_direction"};
 
 EnvironmentKind read_kind(const TomlTable& table) {
   const auto choice = table.choice("kind", {"file", "constant", "sky"});
   const EnvironmentKind kind = choice ? static_cast<EnvironmentKind>(*choice) : EnvironmentKind::file;
-  for (const OwnKeys& own : own_keys()) {
+  for (const OwnKeys& own : own_keys) {
     for (const std::string& key : own.keys) {
       if (own.kind != kind && table.has(key))
         throw table.error_at(key, "does not belong to an environment of this kind", "leave it out, or change `kind`");
@@ -43,9 +40,7 @@ EnvironmentKind read_kind(const TomlTable& table) {
 }
 
 void read_sky(const TomlTable& table, SkySettings& sky) {
-  const auto sun = table.numbers("sun_direction", 3, {-1e9, 1e9});
-  if (!sun) return;
-  sky.sun_direction = {(*sun)[0], (*sun)[1], (*sun)[2]};
+  assign(sky.sun_direction, read_vector(table, "sun_direction", coordinate_range));
   const bool below = sky.sun_direction.y < 0.0;
   if (below || glm::length(sky.sun_direction) < 1e-9) {
     throw table.error_at("sun_direction", below ? "points below the horizon" : "has no length",
@@ -87,19 +82,18 @@ const std::vector<std::string> light_types{"point", "spot", "directional"};
 float radians(double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180.0); }
 
 void read_frame(const TomlTable& table, SceneSettings& settings) {
-  if (const auto size = table.numbers("size", 2, {1.0, 65536.0})) {
-    if ((*size)[0] != std::floor((*size)[0]) || (*size)[1] != std::floor((*size)[1])) {
+  if (const auto size = read_pair(table, "size", {1.0, 65536.0})) {
+    settings.frame_size = glm::ivec2(*size);
+    if (glm::dvec2(*settings.frame_size) != *size)
       throw table.error_at("size", "must be whole numbers of pixels", "write it as [512, 512]");
-    }
-    settings.frame_size = glm::ivec2{static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
   }
   if (const auto filter = table.word("footprint")) {
     settings.footprint = at_key(table, "footprint", [&] { return parse_footprint_filter(*filter, ""); });
   }
   if (table.is_word("exposure")) {
     settings.automatic_exposure = table.choice("exposure", {"auto"}).has_value();
-  } else if (const auto exposure = table.number("exposure", {1e-9, 1e9})) {
-    settings.exposure = static_cast<float>(*exposure);
+  } else {
+    assign(settings.exposure, table.number("exposure", {1e-9, 1e9}));
   }
 }
 
@@ -137,7 +131,7 @@ Light read_light(const TomlTable& table) {
   const auto position = read_vector(table, "position", coordinate_range);
   if (!position) refuse_missing(table, "position");
   PointLight point{glm::vec3{*position}, power, std::nullopt};
-  if (const auto range = table.number("range", length_range)) point.range = static_cast<float>(*range);
+  assign(point.range, table.number("range", length_range));
   if (*type == 1) return read_spot(table, point, *towards);
   reject(table, {"direction"}, light_types[*type]);
   return point;
@@ -156,11 +150,24 @@ Camera read_placed_camera(const TomlTable& table) {
   camera.yfov = radians(table.number("yfov_degrees", field_of_view).value_or(34.4));
   const double distance = glm::length(*position - *target);
   camera.znear = static_cast<float>(table.number("znear", length_range).value_or(0.01 * distance));
-  if (const auto zfar = table.number("zfar", length_range)) {
-    if (*zfar <= camera.znear) throw table.error_at("zfar", "must be beyond znear", "make it larger");
-    camera.zfar = static_cast<float>(*zfar);
-  }
+  const auto zfar = table.number("zfar", length_range);
+  if (zfar && *zfar <= camera.znear) throw table.error_at("zfar", "must be beyond znear", "make it larger");
+  assign(camera.zfar, zfar);
   return camera;
+}
+
+EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder) {
+  EnvironmentSettings settings;
+  settings.kind = read_kind(table);
+  if (settings.kind == EnvironmentKind::file) {
+    settings.candidates = read_candidates(table, folder, R"(name the image, or give kind = "constant" or "sky")");
+    settings.package = table.word("package").value_or("");
+  }
+  if (settings.kind == EnvironmentKind::sky) read_sky(table, settings.sky);
+  assign(settings.color, read_color(table, "color"));
+  assign(settings.intensity, table.number("intensity", {0.0, 1e6}));
+  assign(settings.rotation_degrees, table.number("rotation_degrees", {-360.0, 360.0}));
+  return settings;
 }
 
 void read_lights(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
@@ -168,30 +175,22 @@ void read_lights(const TomlTable& root, const std::filesystem::path& folder, Sce
                                                       "inner_cone_degrees", "outer_cone_degrees"})) {
     settings.lights.push_back(read_light(light));
   }
-  if (const auto lights = root.table("lights", {"keep"})) {
-    settings.keep_model_lights = lights->boolean("keep").value_or(true);
-  }
-  if (const auto environment = root.table("environment", environment_keys())) {
+  if (const auto lights = root.table("lights", {"keep"})) assign(settings.keep_model_lights, lights->boolean("keep"));
+  if (const auto environment = root.table("environment", environment_keys)) {
     settings.environment = read_environment(*environment, folder);
   }
   if (const auto shadows = root.table("shadows", {"cast", "resolution", "sides"})) {
     settings.shadows.cast = shadows->boolean("cast");
-    if (const auto sides = shadows->choice("sides", word_names(shadow_sides))) {
-      settings.shadows.both_sides = shadow_sides.at(*sides).value;
-    }
-    if (const auto texels = shadows->whole_number("resolution", shadow_resolution)) {
-      settings.shadows.resolution = static_cast<int>(*texels);
-    }
+    assign(settings.shadows.both_sides, read_word(*shadows, "sides", shadow_sides));
+    assign(settings.shadows.resolution, shadows->whole_number("resolution", shadow_resolution));
   }
 }
 
 void read_view(const TomlTable& root, SceneSettings& settings) {
   if (const auto frame = root.table("frame", {"size", "exposure", "footprint"})) read_frame(*frame, settings);
   if (const auto camera = root.table("camera", camera_keys())) settings.camera = read_camera(*camera);
-  if (const auto zoom = root.table("zoom", {"distances"})) {
-    if (auto distances = zoom->numbers("distances", 0, {smallest_distance, largest_distance}))
-      settings.distances = std::move(*distances);
-  }
+  if (const auto zoom = root.table("zoom", {"distances"}))
+    assign(settings.distances, zoom->numbers("distances", 0, {smallest_distance, largest_distance}));
 }
 
 // Scenes of model files follow viewers, others the papers.
@@ -204,30 +203,6 @@ void set_rules(SceneSettings& settings) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& environment_keys() {
-  static const std::vector<std::string> keys = [] {
-    std::vector<std::string> all{"kind", "intensity", "rotation_degrees"};
-    for (const OwnKeys& own : own_keys()) all.insert(all.end(), own.keys.begin(), own.keys.end());
-    return all;
-  }();
-  return keys;
-}
-
-EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder) {
-  EnvironmentSettings settings;
-  settings.kind = read_kind(table);
-  if (settings.kind == EnvironmentKind::file) {
-    settings.candidates = read_candidates(table, folder, R"(name the image, or give kind = "constant" or "sky")");
-    settings.package = table.word("package").value_or("");
-  }
-  if (settings.kind == EnvironmentKind::sky) read_sky(table, settings.sky);
-  if (const auto color = table.numbers("color", 3, {0.0, 1.0}))
-    settings.color = {(*color)[0], (*color)[1], (*color)[2]};
-  settings.intensity = table.number("intensity", {0.0, 1e6}).value_or(settings.intensity);
-  settings.rotation_degrees = table.number("rotation_degrees", {-360.0, 360.0}).value_or(settings.rotation_degrees);
-  return settings;
-}
 
 Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
   Environment environment = unscaled(settings, warnings);
@@ -252,9 +227,9 @@ CameraSettings read_camera(const TomlTable& table) {
     if (table.has(key)) throw table.error_at(key, "excludes frame_bounds", "give one or the other");
   }
   Framing framing;
-  framing.direction = read_direction(*framed, "direction").value_or(framing.direction);
+  assign(framing.direction, read_direction(*framed, "direction"));
   if (const auto fov = framed->number("fov_degrees", field_of_view)) framing.yfov = radians(*fov);
-  framing.margin = framed->number("margin", {0.01, 1000.0}).value_or(framing.margin);
+  assign(framing.margin, framed->number("margin", {0.01, 1000.0}));
   return framing;
 }
 
@@ -266,11 +241,9 @@ SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<c
   settings.parts = read_parts(root, file.parent_path(), surfaces);
   set_rules(settings);
   if (const auto scene = root.table("scene", {"name", "description", "horizon"})) {
-    if (const auto horizon = scene->choice("horizon", word_names(horizons))) {
-      settings.horizon = horizons.at(*horizon).value;
-    }
+    assign(settings.horizon, read_word(*scene, "horizon", horizons));
     settings.name = scene->word("name");
-    settings.description = scene->word("description").value_or("");
+    assign(settings.description, scene->word("description"));
   }
   read_lights(root, file.parent_path(), settings);
   read_view(root, settings);

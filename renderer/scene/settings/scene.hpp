@@ -27,12 +27,6 @@ struct EnvironmentSettings {
   double rotation_degrees = 0.0;  ///< about +y, counter-clockwise seen from above
 };
 
-/// The keys of an [environment] table.
-[[nodiscard]] const std::vector<std::string>& environment_keys();
-
-/// Relative paths start at `folder`. Throws Error (usage) "FILE:LINE: ...".
-[[nodiscard]] EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder);
-
 /// Loads or computes the environment. Throws Error (usage): none of the files exists; as load_environment.
 [[nodiscard]] Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings);
 

@@ -1,9 +1,20 @@
-// Lists of three numbers as vectors, colours and unit directions.
+// Lists of numbers as vectors, colours and unit directions; names as paths.
 #include "renderer/scene/settings/toml_values.hpp"
 
 #include <fmt/format.h>
 
 namespace footprint {
+
+std::optional<std::filesystem::path> read_path(const TomlTable& table, std::string_view key,
+                                               const std::filesystem::path& folder) {
+  const auto name = table.word(key);
+  return name ? std::optional(folder / *name) : std::nullopt;
+}
+
+std::optional<glm::dvec2> read_pair(const TomlTable& table, std::string_view key, NumberRange range) {
+  const auto values = table.numbers(key, 2, range);
+  return values ? std::optional(glm::dvec2((*values)[0], (*values)[1])) : std::nullopt;
+}
 
 std::optional<glm::dvec3> read_vector(const TomlTable& table, std::string_view key, NumberRange range) {
   const auto values = table.numbers(key, 3, range);

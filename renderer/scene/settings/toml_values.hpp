@@ -1,6 +1,7 @@
-// Directions, colours and points of TOML tables, which several readers share.
+// Values of TOML tables that several readers share: paths, words, directions, colours and points.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/names.hpp"
 #include "renderer/core/toml_table.hpp"
 
 namespace footprint {
@@ -16,6 +18,31 @@ namespace footprint {
 inline constexpr NumberRange unit_range{0.0, 1.0};
 inline constexpr NumberRange length_range{1e-6, 1e6};      ///< metres, above 0
 inline constexpr NumberRange coordinate_range{-1e9, 1e9};  ///< metres
+
+/// Assigns the value of a key; a missing key leaves `target` as it is.
+template <class Target, class Value>
+void assign(Target& target, const std::optional<Value>& value) {
+  if (value) target = static_cast<Target>(*value);
+}
+template <class Target, class Value>
+void assign(std::optional<Target>& target, const std::optional<Value>& value) {
+  if (value) target = static_cast<Target>(*value);
+}
+
+/// The value of a word of `words`.
+template <class Value, std::size_t count>
+[[nodiscard]] std::optional<Value> read_word(const TomlTable& table, std::string_view key,
+                                             const std::array<Word<Value>, count>& words) {
+  const auto index = table.choice(key, word_names(words));
+  return index ? std::optional(words.at(*index).value) : std::nullopt;
+}
+
+/// A path relative to `folder`.
+[[nodiscard]] std::optional<std::filesystem::path> read_path(const TomlTable& table, std::string_view key,
+                                                             const std::filesystem::path& folder);
+
+/// Two numbers.
+[[nodiscard]] std::optional<glm::dvec2> read_pair(const TomlTable& table, std::string_view key, NumberRange range);
 
 /// Three numbers. The readers here return nothing if the key is missing, and throw as TomlTable.
 [[nodiscard]] std::optional<glm::dvec3> read_vector(const TomlTable& table, std::string_view key, NumberRange range);

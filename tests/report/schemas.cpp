@@ -1,0 +1,70 @@
+// Compares the schemas of docs/ with the fields that results/report/record_fields.hpp lists: footprint_schemas FOLDER.
+// With --write it gives them that structure, and a new property an empty description to fill in.
+#include <fmt/format.h>
+
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "renderer/core/files.hpp"
+#include "results/report/record_fields.hpp"
+#include "results/report/report.hpp"
+#include "tests/report/schema_archive.hpp"
+#include "tests/report/schema_structure.hpp"
+
+namespace footprint::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Each schema by its file, with the structure that the fields give.
+std::array<std::pair<std::string_view, Json>, 4> structures() {
+  const MatrixResults matrix{.report = {}, .left_out = {}, .members = {MatrixMember{}}};
+  return {{{"results.schema.json", SchemaArchive::schema_of(Results{})},
+           {"matrix.schema.json", SchemaArchive::schema_of(matrix)},
+           {"ndf.schema.json", SchemaArchive::schema_of(NdfResults{})},
+           {"recommend.schema.json", SchemaArchive::schema_of(Recommendation{})}}};
+}
+
+// Returns the number of differences, after printing them.
+std::size_t compare(const std::filesystem::path& folder, bool write) {
+  std::size_t count = 0;
+  for (const auto& [name, structure] : structures()) {
+    const std::filesystem::path file = folder / name;
+    std::ifstream stream(file, std::ios::binary);
+    Json schema = Json::parse(stream);
+    if (write) {
+      schema = with_structure(structure, std::move(schema));
+      write_file_atomically(file, json_text(schema, 2) + "\n");
+    }
+    for (const std::string& difference : schema_differences(structure, schema)) {
+      fmt::print("{}: {}\n", file.string(), difference);
+      ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+}  // namespace footprint::test
+
+int main(int argc, char** argv) {
+  try {
+    const std::span arguments(argv, static_cast<std::size_t>(argc));
+    const bool write = argc == 3 && std::string_view(arguments[1]) == "--write";
+    if (argc != 2 && !write) throw std::invalid_argument("usage: footprint_schemas [--write] FOLDER");
+    if (footprint::test::compare(arguments.back(), write) == 0) return 0;
+    fmt::print("{}", write ? "describe the new properties\n"
+                           : "footprint_schemas --write FOLDER gives the schemas the structure of the fields\n");
+    return 1;
+  } catch (const std::exception& fault) {
+    fmt::print(stderr, "{}\n", fault.what());
+    return 2;
+  }
+}

@@ -45,9 +45,11 @@ struct WeighedWork {
 /// The bytes of a frame's target: four half floats.
 inline constexpr double frame_pixel_bytes = 8;
 
-/// The estimate on a chip, without the passes before the frame. It lacks `ratio_to_direct` and what the driver reports
-/// of a program. textures: by binding. written_bytes: of a pixel, in all targets. finest_areas: of each pixel on maps
-/// with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
+/// The estimate on a chip, without the passes before the frame, `ratio_to_direct` and what the driver reports of a
+/// program.
+/// textures: by binding.
+/// written_bytes: of a pixel, in all targets.
+/// finest_areas: of each pixel on maps with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
 [[nodiscard]] GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
                                const std::map<int, TextureCost>& textures, double written_bytes = frame_pixel_bytes,
                                std::span<const float> finest_areas = {});

@@ -111,6 +111,8 @@ class RealMaps(unittest.TestCase):
         self.assertLess(errors["tan_gmm:n=8"], errors["naive_mip"])
         self.assertRegex(done.stdout, r"`tan_gmm:n=4` has [\d.]+ \([\d.]+ to [\d.]+\)\s+of\s+the\s+error\s+of\s+`lean`")
         self.assertIn("## Held-out maps\n\nNot run.", done.stdout)
+        members = list((self.folder / "results/development_main").glob("*/results.json"))
+        self.assertEqual([json.loads(member.read_text())["pairs"] for member in members], [[], []], "more than 24 methods")
         again = self.study()
         self.assertEqual(again.stdout, done.stdout, "bootstraps are seeded")
 

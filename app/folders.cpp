@@ -31,4 +31,6 @@ fs::path experiments_folder() { return folder_of("FOOTPRINT_EXPERIMENTS", "exper
 
 SceneLibrary scene_library() { return {.folder = folder_of("FOOTPRINT_SCENES", "scenes"), .surfaces = all_surfaces()}; }
 
+fs::path quick_model_file() { return data_folder() / "results" / "quick_model.json"; }
+
 }  // namespace footprint

@@ -1,4 +1,4 @@
-// Folders in which the program finds scenes and experiments by name.
+// Where the program finds scenes and experiments by name, and its own data.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +14,8 @@ namespace footprint {
 /// The folder of scenes (FOOTPRINT_SCENES, else scenes/ of the installed tree, else of the source tree), and the
 /// surfaces of this build.
 [[nodiscard]] SceneLibrary scene_library();
+
+/// The model of `recommend --quick`: results/quick_model.json of the installed tree, else of the source tree.
+[[nodiscard]] std::filesystem::path quick_model_file();
 
 }  // namespace footprint

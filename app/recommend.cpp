@@ -15,13 +15,16 @@
 
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
+#include "app/folders.hpp"
 #include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
+#include "experiments/studies/quick_advice.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -37,7 +40,8 @@ constexpr const char* recommend_examples =
     "  footprint recommend model.gltf --max-error 0.05 --distance 1,2,4,8 -o advice\n"
     "  footprint recommend model.gltf --max-cost 2 --footprints trilinear,anisotropic:8 -o advice\n"
     "  footprint recommend model.gltf --max-cost '2@Steam Deck' -o advice\n"
-    "  footprint recommend model.gltf --max-bytes 4000000 --methods direct,toksvig:storage=unorm8,lean:storage=fp16";
+    "  footprint recommend model.gltf --max-bytes 4000000 --methods direct,toksvig:storage=unorm8,lean:storage=fp16\n"
+    "  footprint recommend model.gltf --quick --max-cost '2@Steam Deck'";
 
 struct RecommendArguments {
   explicit RecommendArguments(CLI::App& command) : run(command) {}
@@ -47,6 +51,8 @@ struct RecommendArguments {
   Limits limits;
   std::string max_cost;  // R or R@GPU
   bool exhaustive = false;
+  bool predicted = false;  // by a model, without a measurement
+  bool json = false;
   bool fresh = false;
   std::string output = "out";
   bool quiet = false;
@@ -90,6 +96,20 @@ void write_answer(const Recommendation& answer, const std::filesystem::path& fol
   write_file_atomically(folder / "index.html", recommendation_page(answer));
 }
 
+// The GPU of predicted costs where no limit names one.
+constexpr const char* usual_gpu = "Steam Deck";
+
+void run_quick_command(const RecommendArguments& arguments, const RecommendSettings& settings) {
+  QuickQuestion question{.methods = settings.run.methods, .filters = {}, .limits = settings.limits};
+  for (const FootprintFilter& filter : settings.filters) question.filters.push_back(footprint_filter_text(filter));
+  if (question.limits.max_cost && question.limits.gpu.empty())
+    throw Error(ErrorKind::usage, "--max-cost", "--quick times no frames", "name a GPU: R@GPU");
+  if (question.limits.gpu.empty()) question.limits.gpu = usual_gpu;
+  const Scene scene = load_scene(settings.run.scene, settings.run.scene_library, settings.run.overrides);
+  const QuickAdvice advice = quick_advice(scene, read_quick_model(quick_model_file()), question);
+  write_output(arguments.json ? quick_advice_json(advice) : quick_advice_text(advice));
+}
+
 void run_recommend_command(const RecommendArguments& arguments) {
   require_positive("--max-error", arguments.limits.max_error);
   RecommendSettings settings{.run = arguments.run.settings(),
@@ -98,6 +118,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
                              .exhaustive = arguments.exhaustive,
                              .gpu_compiler = amd_compiler()};
   set_max_cost(arguments.max_cost, settings);
+  if (arguments.predicted) return run_quick_command(arguments, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
   const FinishedWork finished(finished_work_folder(arguments.output), maker_for(settings.run));
   if (arguments.fresh) finished.clear();
@@ -153,16 +174,24 @@ void add_recommend_command(CLI::App& app) {
           "Footprint filters to try, comma-separated, as for `compare --footprint`; trilinear is always included")
       ->type_name("LIST")
       ->capture_default_str();
-  command->add_flag("--exhaustive", arguments->exhaustive, "Measure every candidate in full");
-  command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
-          "interrupted run resumes")
-      ->type_name("DIR")
-      ->capture_default_str();
-  command->add_flag("--fresh", arguments->fresh,
-                    "Measure everything again: discard the finished work in the output folder");
+  auto* exhaustive = command->add_flag("--exhaustive", arguments->exhaustive, "Measure every candidate in full");
+  auto* quick =
+      command->add_flag("--quick", arguments->predicted,
+                        "Predict errors within a second from the statistics of each normal map: nothing is drawn "
+                        "or written, and options of view, reference and timing have no effect");
+  quick->excludes(exhaustive);
+  command->add_flag("--json", arguments->json, "With --quick: JSON instead of text, for programs")->needs(quick);
+  auto* output =
+      command
+          ->add_option(
+              "-o,--output", arguments->output,
+              "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
+              "interrupted run resumes")
+          ->type_name("DIR")
+          ->capture_default_str();
+  auto* fresh = command->add_flag("--fresh", arguments->fresh,
+                                  "Measure everything again: discard the finished work in the output folder");
+  quick->excludes(output)->excludes(fresh);
   add_quiet_flag(*command, arguments->quiet);
   command->footer(recommend_examples);
   command->callback([arguments] { run_recommend_command(*arguments); });

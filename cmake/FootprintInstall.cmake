@@ -14,6 +14,7 @@ function(footprint_install_program target)
   install(DIRECTORY experiments DESTINATION "${data}" COMPONENT runtime
           FILES_MATCHING PATTERN "*.toml" PATTERN "README.md")
   install(DIRECTORY results/published DESTINATION "${data}/results" COMPONENT runtime FILES_MATCHING PATTERN "*.toml")
+  install(FILES results/quick_model.json DESTINATION "${data}/results" COMPONENT runtime)
   install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)  # where the front page looks for them
   install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
   install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT runtime)

@@ -68,7 +68,9 @@ std::string named(const Candidate& candidate) {
 
 std::string cost_text(const Candidate& candidate) {
   if (is_plain(candidate)) return "the cost of direct";
-  return fmt::format("{} times the cost of direct", ratio_text(candidate.cost));
+  const bool is_estimate = candidate.cost.low == candidate.cost.high;
+  return fmt::format("{} times the cost of direct",
+                     is_estimate ? fmt::format("{:.3g}", candidate.cost.median) : ratio_text(candidate.cost));
 }
 
 std::string figures_of(const Candidate& candidate) {
@@ -102,7 +104,7 @@ std::string what_is_tied(const MaterialAdvice& advice) {
 }
 
 std::string how_sure(const MaterialAdvice& advice) {
-  if (!advice.choice.chosen) return {};
+  if (!advice.choice.chosen || advice.pixels.empty()) return {};
   const Candidate& chosen = advice.candidates[*advice.choice.chosen];
   const std::string noise = chosen.noise ? error_text(*chosen.noise) : "unknown";
   std::vector<std::string> parts;

@@ -30,11 +30,20 @@ std::vector<Case> wrong_recommendations() {
       row("RecommendUnderAWrongFilter", {"v_grooves", "--footprints", "trilinear,anistropic:8"},
           {"--footprints", "did you mean `anisotropic`?"}),
       row("RecommendUnderAFilterWithoutItsNumber", {"v_grooves", "--footprints", "shaded"}, {"--footprints", "shaded"}),
+      row("RecommendQuicklyWithinFrameTimes", {"v_grooves", "--quick", "--max-cost", "2"}, {"--quick", "R@GPU"}),
+      row("RecommendQuicklyAndInFull", {"v_grooves", "--quick", "--exhaustive"}, {"--exhaustive"}),
       row("RecommendAWrongMethod", {"v_grooves", "--methods", "direct,toxvig"}, {"did you mean `toksvig`?"}),
   };
 }
 
 const std::vector<Case> recommendations{
+    {.name = "RecommendQuickly",
+     .arguments = {"recommend", "v_grooves", "--quick", "--methods", "direct,tan_gmm,yan_gaussians"},
+     .output_has = {"v_grooves, the smallest error: predicted", "left out yan_gaussians: ", "Use ",
+                    "estimated on Steam Deck", "pairs are in the right order"}},
+    {.name = "RecommendQuicklyAsJson",
+     .arguments = {"recommend", "v_grooves", "--quick", "--json", "--max-cost", "2@PS4"},
+     .output_has = {"\"footprint-quick/1\"", "\"gpu\": \"PS4\""}},
     {.name = "Recommend",
      .arguments = {"recommend", "v_grooves", "--methods", "direct,toksvig", "--footprints", "trilinear", "--size",
                    "48x48", "--distance", "4", "--spp", "16", "--repeats", "1", "-o", "{}/out"},

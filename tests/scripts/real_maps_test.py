@@ -115,6 +115,26 @@ class RealMaps(unittest.TestCase):
         self.assertEqual([json.loads(member.read_text())["pairs"] for member in members], [[], []], "more than 24 methods")
         again = self.study()
         self.assertEqual(again.stdout, done.stdout, "bootstraps are seeded")
+        self.quick_model_of_these()
+
+    def quick_model_of_these(self):
+        def fitted():
+            return subprocess.run([SOURCE / "scripts/quick_model", self.out, self.folder / "results"], capture_output=True,
+                                  text=True, check=False, env=os.environ)
+
+        alone = fitted()
+        self.assertEqual((alone.returncode, "held-out maps" in alone.stderr), (1, True))
+        shutil.copytree(self.out / "development", self.out / "held_out", dirs_exist_ok=True)
+        shutil.copytree(self.folder / "results/development_main", self.folder / "results/held_out_main")
+        done = fitted()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        model = json.loads(done.stdout)
+        self.assertEqual(len(model["methods"]), 42)
+        own = model["calibration"][0]
+        self.assertEqual((own["scenes"], own["predictions"]), (2, 2 * 42 * 4))
+        # Nine weights describe the eight errors that they were fitted on.
+        self.assertLess(own["median_factor"], 1.2)
+        self.assertGreater(own["order_right"], 0.8)
 
     def test_a_tree_without_maps_is_an_error(self):
         done = self.collect()

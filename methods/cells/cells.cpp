@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "methods/cells/cell_moments.hpp"
+#include "methods/cells/halves.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -20,21 +21,23 @@ using cells::Covariance;
 using cells::PlanePoint;
 
 std::vector<OptionSpec> option_table() {
-  return {whole_option("k", 4, 1, cells::most_parts, "Number of groups of normals; 1 is LEAN."),
-          word_option("labels", {"joint", "global"},
-                      "How texels are given to parts: so that blocks of all sizes are well described by one Gaussian "
-                      "a part, or by one mixture over the whole map."),
-          word_option("storage", {"fp32", "fp16"}, "How moments are stored: 32-bit or 16-bit floats."),
-          word_option("covariance", {"axes", "full"},
-                      "What a texel stores of a part's covariance: along the part's own axes, or whole."),
-          word_option("coordinates", {"stereographic", "slopes"},
-                      "What moments are of: the stereographic projection of normals, or their slopes, as LEAN has "
-                      "them."),
-          word_option("roughness", {"joint", "separate"},
-                      "Where the roughness varies: one mean of the base lobe's variance a part, or one for all."),
-          word_option("density", {"fast", "exact"},
-                      "The base lobe of Blinn and Phong: by two instructions within 2e-4 of its peak, or to rounding."),
-          steepest_slope_option()};
+  return {
+      whole_option("k", 4, 1, cells::most_parts, "Number of groups of normals; 1 is LEAN."),
+      word_option("labels", {"joint", "global"},
+                  "How texels are given to parts: so that blocks of all sizes are well described by one Gaussian "
+                  "a part, or by one mixture over the whole map."),
+      word_option("storage", {"fp32", "fp16"}, "How moments are stored: 32-bit or 16-bit floats."),
+      word_option("covariance", {"axes", "full"},
+                  "What a texel stores of a part's covariance: along the part's own axes, or whole."),
+      word_option("coordinates", {"stereographic", "slopes"},
+                  "What moments are of: the stereographic projection of normals, or their slopes, as LEAN has "
+                  "them."),
+      word_option("roughness", {"joint", "separate"},
+                  "Where the roughness varies: parts of their own for smooth and for rough texels, each with a mean of "
+                  "the base lobe's variance, or parts of normals alone and one mean for all."),
+      word_option("density", {"fast", "exact"},
+                  "The base lobe of Blinn and Phong: by two instructions within 2e-4 of its peak, or to rounding."),
+      steepest_slope_option()};
 }
 
 // The options that the bake reads.
@@ -67,13 +70,29 @@ struct PartedNormals {
   std::vector<float> shares;
 };
 
-PartedNormals parted(const Material& material, const Settings& settings, const Progress& progress) {
+// The variance of the base lobe of each texel of the normal map.
+std::vector<double> variances_over(const Material& material, const Image& normals) {
+  const Image map = lobe_variance_map(material);
+  std::vector<double> variances;
+  variances.reserve(normals.texel_count());
+  for (int y = 0; y < normals.height; ++y) {
+    for (int x = 0; x < normals.width; ++x)
+      variances.push_back(map.at(x * map.width / normals.width, y * map.height / normals.height)[0]);
+  }
+  return variances;
+}
+
+PartedNormals parted(const Material& material, const Settings& settings, bool roughness_varies,
+                     const Progress& progress) {
   const Image normals = normal_map_of(material);
   std::vector<PlanePoint> points = cells::plane_points(normals, cells::Coordinates::stereographic, settings.steepest);
-  std::vector<float> shares = cells::partition(
-      points, normals.width, normals.height,
-      {.parts = settings.parts, .labels = settings.labels, .variance = lobe_variance_chain(material).back().texels[0]},
-      progress);
+  const cells::PartitionSettings partition{
+      .parts = settings.parts, .labels = settings.labels, .variance = lobe_variance_chain(material).back().texels[0]};
+  const bool joint = roughness_varies && settings.joint_roughness && roughness_lies_on_normals(material);
+  std::vector<float> shares = joint
+                                  ? cells::partition_with_roughness(points, variances_over(material, normals),
+                                                                    normals.width, normals.height, partition, progress)
+                                  : cells::partition(points, normals.width, normals.height, partition, progress);
   if (settings.coordinates == cells::Coordinates::slopes)
     points = cells::plane_points(normals, cells::Coordinates::slopes, settings.steepest);
   return {normals.width, normals.height, static_cast<std::size_t>(settings.parts), std::move(points),
@@ -138,7 +157,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   const Storage storage = settings.storage;
   if (!has(effects, Effect::normal_variation)) return bake_lobe_variance(material, storage, effects);
   Prefiltered out;
-  const PartedNormals normals = parted(material, settings, progress);
+  const PartedNormals normals = parted(material, settings, has(effects, Effect::roughness_variation), progress);
   add_moments(normals, settings, normal_coordinates(material), out);
   // Stereographic moments give the mean of the unit normals; moments of slopes do not.
   if (has(effects, Effect::diffuse) && settings.coordinates == cells::Coordinates::slopes)

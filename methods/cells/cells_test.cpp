@@ -331,6 +331,30 @@ TEST(Cells, RoughnessGoesWithTheNormals) {
   EXPECT_NEAR(relative_l2(probe_ndf(probed, directions), exact), separate, 1e-3);
 }
 
+// Smooth and rough texels of one normal: their parts are their lobes.
+TEST(Cells, SmoothAndRoughTexelsHavePartsOfTheirOwn) {
+  Image normals(32, 32, 4, 1.0F), roughness(32, 32, 2, 1.0F);
+  for (std::size_t i = 0; i < normals.texel_count(); ++i) {
+    normals.texels[4 * i] = normals.texels[4 * i + 1] = 0.0F;
+    roughness.texels[2 * i] = i % 3 == 0 ? 0.2F : 0.7F;
+  }
+  Material material = lobe_material(normals, ggx, 0.0F);
+  material.lobe_parameter.reset();
+  material.metallic_roughness_map =
+      TextureMap{"roughness", std::make_shared<const Image>(roughness), material.normal_map->coordinates};
+  const std::vector<glm::dvec3> directions = hemisphere_grid(60, 120);
+  const double smooth_share = std::ceil(1024 / 3.0) / 1024;
+  std::vector<double> exact;
+  for (const glm::dvec3& h : directions)
+    exact.push_back(smooth_share * base_density(ggx, 0.2 * 0.2, {0, 0, 1}, h) +
+                    (1.0 - smooth_share) * base_density(ggx, 0.7 * 0.7, {0, 0, 1}, h));
+  ProbedMethod probed = parted_method(material, {{"k", "2"}});
+  probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation));
+  EXPECT_LT(relative_l2(probe_ndf(probed, directions), exact), 1e-3);
+  probed.options["roughness"] = "separate";
+  EXPECT_GT(relative_l2(probe_ndf(probed, directions), exact), 0.3);
+}
+
 // One texel in 2048 that leans: in 16 bits its part's share of the variance of polished facets rounds to nothing.
 TEST(Cells, ASmallPartOfPolishedFacetsStaysFinite) {
   Image normals = constant_normals(64, 32, {0, 0, 1});

@@ -139,6 +139,20 @@ class Document(Tree):
         self.assertIn("| reproduced |", row)
         self.assertEqual(text.count("Warning: a \\| bar."), 2)  # of both runs
 
+    def test_a_claim_on_a_printed_figure_is_judged_by_its_row(self):
+        table = "| Figure 6 | `fps(tan_gmm)` | 9 fps | 2.5 fps | note |\n| Figure 6 | `precompute(tan_gmm)` | 300 s | n/a | note |"
+        page = self.folder / "docs/reproduction.md"
+        page.write_text(self.text.replace("| claim |", f"{table}\n\n| claim |"), encoding="utf-8")
+        wanted = ("fps(tan_gmm) >= 2.5", "fps(tan_gmm) > 2.5", "fps(tan_gmm) >= 9", "precompute(tan_gmm) <= 300", "fps(other) < 9")
+        claims = "".join(f'[[claim]]\nname = "c{i}"\ntext = "t"\nsource = "ours"\ninequality = "{text}"\n'
+                         'expect = "reproduced"\nreason = "r"\n' for i, text in enumerate(wanted))
+        text = self.rewritten(lambda content: claims + content)
+        rows = [next(line for line in text.splitlines() if f"`{inequality}`" in line) for inequality in wanted]
+        self.assertEqual([row.split(" | ")[-3:-1] for row in rows],
+                         [["2.5 against 2.5", "reproduced"], ["2.5 against 2.5", "**not reproduced**; expected: reproduced"],
+                          ["2.5 against 9", "**not reproduced**; expected: reproduced"], ["n/a", "not measured"],
+                          ["n/a", "not measured"]])
+
     def test_a_claim_whose_inequality_changed_is_not_measured(self):
         text = self.rewritten(lambda content: content.replace("error(tan_gmm) <", "relmse(tan_gmm) <"))
         self.assertNotIn("0.01 against 0.02", text)

@@ -112,11 +112,13 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
   });
   const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
   if (!expect) refuse_missing(table, "expect", experiments_document);
+  const auto source = table.choice("source", word_names(claim_source_words));
   std::string name = required_word(table, "name");
   std::string words = required_word(table, "text");
   std::string reason = required_word(table, "reason");
   return {.name = std::move(name),
           .text = std::move(words),
+          .source = source ? claim_source_words[*source].value : ClaimSource::ours,
           .inequality = std::move(inequality),
           .expect = *expect == 0 ? Verdict::reproduced : Verdict::not_reproduced,
           .reason = std::move(reason),
@@ -124,7 +126,7 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
 }
 
 void read_claims(const TomlTable& root, Experiment& experiment) {
-  for (const TomlTable& table : root.tables("claim", {"name", "text", "inequality", "expect", "reason"})) {
+  for (const TomlTable& table : root.tables("claim", {"name", "text", "source", "inequality", "expect", "reason"})) {
     Claim claim = read_claim(table, experiment);
     if (std::ranges::find(experiment.claims, claim.name, &Claim::name) != experiment.claims.end()) {
       throw table.error_at("name", fmt::format("is `{:.80}` as in another claim", claim.name), "name it otherwise");

@@ -15,9 +15,10 @@
 
 namespace footprint {
 
-/// A statement of a paper, as an inequality over the records.
+/// A statement, of a paper or our own, as an inequality over the records.
 struct Claim {
   std::string name, text;
+  ClaimSource source = ClaimSource::ours;
   Inequality inequality;
   Verdict expect = Verdict::reproduced;
   std::string reason;

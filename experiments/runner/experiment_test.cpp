@@ -117,6 +117,7 @@ footprint = [0, 0, 0.25, 0.5]
 [[claim]]
 name = "less"
 text = "It is less."
+source = "our_measure"
 inequality = "error(toksvig, spp=16) < error(direct, frame=2)"
 expect = "not_reproduced"
 reason = "because"
@@ -153,6 +154,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   ASSERT_EQ(experiment.footprints.size(), 1U);
   EXPECT_EQ(experiment.footprints[0].rect.upper, glm::dvec2(0.25, 0.5));
   ASSERT_EQ(experiment.claims.size(), 1U);
+  EXPECT_EQ(experiment.claims[0].source, ClaimSource::our_measure);
   EXPECT_EQ(experiment.claims[0].expect, Verdict::not_reproduced);
   ASSERT_EQ(experiment.thresholds.size(), 3U);
   EXPECT_EQ(experiment.thresholds[0].measure.text(), "error(direct)");
@@ -242,7 +244,11 @@ TEST_F(ExperimentFile, ClaimsAreCheckedAgainstTheExperiment) {
     return std::string(head) + "[zoom]\ndistances = [1, 4]\n[[claim]]\nname = \"n\"\ntext = \"t\"\nreason = \"r\"\n" +
            "expect = \"" + expect + "\"\ninequality = \"" + inequality + "\"\n";
   };
-  EXPECT_EQ(read(claim("error(toksvig) < error(direct, distance=4)", "reproduced")).claims.size(), 1U);
+  const std::string good = claim("error(toksvig) < error(direct, distance=4)", "reproduced");
+  ASSERT_EQ(read(good).claims.size(), 1U);
+  EXPECT_EQ(read(good).claims[0].source, ClaimSource::ours);  // not a paper's unless the file says so
+  EXPECT_EQ(read(good + "source = \"paper\"\n").claims[0].source, ClaimSource::paper);
+  expect_complaint(good + "source = \"papers\"\n", "did you mean `paper`");
   expect_complaint(claim("error(toksvg) < 1", "reproduced"), "did you mean `toksvig");
   expect_complaint(claim("error(direct, distance=2) < 1", "reproduced"), "it has 1, 4");
   expect_complaint(claim("error(direct, frame=2) < 1", "reproduced"), "frames are 0 to 1");

@@ -80,6 +80,7 @@ ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
   const Evaluation right = claim.inequality.right().evaluate(runs);
   ClaimOutcome outcome{.name = claim.name,
                        .text = claim.text,
+                       .source = claim.source,
                        .inequality = claim.inequality.text(),
                        .expect = claim.expect,
                        .outcome = Verdict::undecided,

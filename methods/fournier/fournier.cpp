@@ -22,13 +22,14 @@ namespace {
 // The options that the bake reads.
 struct Settings {
   std::size_t peaks;
-  fournier::Start start;
+  fournier::FitRule rule;
   Storage storage;
 };
 
 Settings settings_of(const Options& options) {
   return {.peaks = static_cast<std::size_t>(options.number("peaks")),
-          .start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited,
+          .rule = {.start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited,
+                   .evaluations = static_cast<int>(options.number("evaluations"))},
           .storage = parse_storage(options.word("storage"))};
 }
 
@@ -48,7 +49,7 @@ std::string note_on(const fournier::FitStatistics& statistics) {
 
 void add_peaks(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
   fournier::PeakChain chain = fournier::fit_peak_chain(normal_map_of(material), base_variance(material), settings.peaks,
-                                                       settings.start, progress);
+                                                       settings.rule, progress);
   if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
   const TextureCoordinates coordinates = normal_coordinates(material);
   std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
@@ -90,6 +91,8 @@ const Method& fournier_method() {
                            "starts", {"inherited", "own"},
                            "Where the fit of a texel starts from: the peaks of the finer texels below it, or the "
                            "heaviest of its own normals, each with those nearest to it."),
+                       whole_option("evaluations", fournier::most_evaluations, 1, fournier::most_evaluations,
+                                    "Evaluations of its error after which the fit of a texel stops."),
                        float_storage_option()},
            .honours = map_effects_but({Effect::normal_layers}),
            .slow_precompute = true,

@@ -43,8 +43,8 @@ struct Outcome {
 
 class ChainBuilder {
  public:
-  ChainBuilder(const Image& normals, double base_variance, std::size_t count, Start start, const Progress& progress)
-      : base_variance_(base_variance), cells_(base_variance), count_(count), start_(start), progress_(&progress) {
+  ChainBuilder(const Image& normals, double base_variance, std::size_t count, FitRule rule, const Progress& progress)
+      : base_variance_(base_variance), cells_(base_variance), count_(count), rule_(rule), progress_(&progress) {
     chain_.rest.resize(std::max<std::size_t>(count, 2) - 1);
     add_finest_level(normals);
   }
@@ -107,9 +107,10 @@ class ChainBuilder {
     Outcome outcome;
     std::vector<Peak> peaks = target_of(bins);
     if (peaks.size() > count_) {
-      const std::vector<Peak> from = start_ == Start::own ? clustered_peaks(peaks, count_, std::sqrt(base_variance_))
-                                                          : merged_peaks(std::move(children), count_);
-      Fit fit = fit_peaks(peaks, from, base_variance_);
+      const std::vector<Peak> from = rule_.start == Start::own
+                                         ? clustered_peaks(peaks, count_, std::sqrt(base_variance_))
+                                         : merged_peaks(std::move(children), count_);
+      Fit fit = fit_peaks(peaks, from, base_variance_, rule_.evaluations);
       outcome = {.fitted = true, .converged = fit.converged, .error = fit.error};
       peaks = std::move(fit.peaks);
     } else {
@@ -175,7 +176,7 @@ class ChainBuilder {
   double base_variance_;
   NormalCells cells_;
   std::size_t count_;
-  Start start_;
+  FitRule rule_;
   const Progress* progress_;
   double work_done_ = 0.0, whole_work_ = 0.0;  // in fits
   PeakChain chain_;
@@ -186,9 +187,9 @@ class ChainBuilder {
 
 }  // namespace
 
-PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, Start start,
+PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, FitRule rule,
                          const Progress& progress) {
-  return ChainBuilder(normals, base_variance, count, start, progress).build();
+  return ChainBuilder(normals, base_variance, count, rule, progress).build();
 }
 
 }  // namespace footprint::fournier

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "methods/fournier/peak_fit.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/image/image.hpp"
 
@@ -27,11 +28,17 @@ struct PeakChain {
 /// The start of a texel's fit: the merged peaks of the finer texels below it, or its own heaviest normals.
 enum class Start { inherited, own };
 
+/// How a texel is fitted: from which start, and the evaluations after which a fit stops.
+struct FitRule {
+  Start start = Start::inherited;
+  int evaluations = most_evaluations;
+};
+
 /// Fits `count` peaks to every texel above the finest level; a texel of the finest level has its normal as its only
 /// peak. `normals`: xyz and a weight of 0 or 1; texels of weight 0 have no peaks. `base_variance`: slope variance of
 /// the lobe about each normal. `rest` has count - 1 chains, but at least one. Calls progress from this thread only.
 /// Equal results at any number of threads.
-[[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, Start start,
+[[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, FitRule rule,
                                        const Progress& progress);
 
 }  // namespace footprint::fournier

@@ -63,7 +63,6 @@ constexpr double ridge = 1e-10;             // relative; keeps G regular if peak
 constexpr double negligible = 1e-6;         // of Q over the target's norm: an error below a thousandth
 constexpr double least_deviation = 0.05;  // of the base lobe's: at 0 the derivative vanishes and a peak could not widen
 constexpr double tolerance = 1e-3;        // relative change of Q or of the parameters at convergence
-constexpr int most_evaluations = 100;
 
 double bounded(double variance) { return std::clamp(variance, smallest_variance, largest_variance); }
 
@@ -322,7 +321,7 @@ Eigen::Matrix4d products_of_derivatives(const VmfLobe& a, const VmfLobe& b) {
   return pair.value * out;
 }
 
-Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double base_variance) {
+Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double base_variance, int evaluations) {
   const Objective objective(target, start, base_variance);
   const auto relative_error = [&](double q) { return std::sqrt(q / objective.target_norm()); };
   Vector x = objective.parameters_of(start);
@@ -332,7 +331,7 @@ Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double 
   Eigen::LevenbergMarquardt<Residual> solver(residual);
   solver.setFtol(tolerance);
   solver.setXtol(tolerance);
-  solver.setMaxfev(most_evaluations);
+  solver.setMaxfev(evaluations);
   const Eigen::LevenbergMarquardtSpace::Status status = solver.minimize(x);
   using enum Eigen::LevenbergMarquardtSpace::Status;
   fit.converged = status != TooManyFunctionEvaluation && status != UserAsked && status != ImproperInputParameters;

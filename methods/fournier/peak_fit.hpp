@@ -9,6 +9,9 @@
 
 namespace footprint::fournier {
 
+/// The evaluations of Q after which a fit stops, unless it is given fewer.
+inline constexpr int most_evaluations = 100;
+
 /// A von Mises-Fisher lobe of unit energy, kappa / (2 pi (1 - e^{-2 kappa})) e^{kappa (axis.h - 1)} (Xu 2017, equation
 /// 6), kappa > 0, and the derivatives of its axis by two parameters.
 struct VmfLobe {
@@ -42,7 +45,8 @@ struct Fit {
 ///   T = sum_j b_j L(m_j, base_variance + spread_j),  w_i >= 0, sum w_i = sum b_j, spread_i >= 0,
 /// where L(n, v) is the von Mises-Fisher lobe of unit energy and kappa = 1/v, the Blinn-Phong lobe of exponent 1/v to
 /// O(v) (for Beckmann and GGX the lobe of the same slope variance). Levenberg-Marquardt over all w, n and spread at
-/// once. Neither may be empty; base_variance > 0.
-[[nodiscard]] Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double base_variance);
+/// once, of at most `evaluations` of Q. Neither may be empty; base_variance > 0.
+[[nodiscard]] Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double base_variance,
+                            int evaluations = most_evaluations);
 
 }  // namespace footprint::fournier

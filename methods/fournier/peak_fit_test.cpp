@@ -39,6 +39,15 @@ TEST(PeakFit, RecoversAKnownMixture) {
   }
 }
 
+TEST(PeakFit, StopsAfterTheEvaluationsThatItIsGiven) {
+  std::vector<Peak> start = known;
+  for (Peak& peak : start) peak.spread *= 2.5;
+  const Fit two = fit_peaks(known, start, base, 2);
+  EXPECT_FALSE(two.converged);
+  EXPECT_LE(two.error, two.start_error);
+  EXPECT_GT(two.error, 10.0 * fit_peaks(known, start, base).error);
+}
+
 std::vector<Peak> random_target(std::uint32_t seed, int count, double most_tilt) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };

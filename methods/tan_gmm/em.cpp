@@ -155,6 +155,12 @@ class FullStep {
   std::array<FullSums, most_components> sums_{};
 };
 
+// By how much a printed variance of component weight `weight` differs from the exact one, of M = `total` samples.
+double printed_share(VarianceStep variance, double weight, double total) {
+  if (variance == VarianceStep::exact) return 1.0;
+  return variance == VarianceStep::published ? 1.0 / total : weight / total;
+}
+
 }  // namespace
 
 void Prior::add(std::span<const Gaussian> neighbour) {
@@ -194,7 +200,8 @@ Expectation expectation(const Samples& samples, std::span<const Gaussian> mixtur
   return e;
 }
 
-void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Gaussian> mixture) {
+void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Gaussian> mixture,
+              VarianceStep variance) {
   double total = 0;
   for (std::size_t i = 0; i < mixture.size(); ++i) total += e.moments[i].weight;
   for (std::size_t i = 0; i < mixture.size(); ++i) {
@@ -212,7 +219,8 @@ void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Ga
     g.alpha = static_cast<float>(m.weight / total);
     g.x = static_cast<float>(x);
     g.y = static_cast<float>(y);
-    g.variance = std::max(static_cast<float>(0.5 * (m.scatter / m.weight + dx * dx + dy * dy)), variance_floor);
+    const double exact = 0.5 * (m.scatter / m.weight + dx * dx + dy * dy);
+    g.variance = std::max(static_cast<float>(printed_share(variance, m.weight, total) * exact), variance_floor);
   }
 }
 
@@ -223,13 +231,13 @@ double log_prior(const Prior& prior, std::span<const Gaussian> mixture) {
 }
 
 double iterate(const Samples& samples, const Prior& prior, MStep step, int most_iterations, double tolerance,
-               std::span<Gaussian> mixture) {
+               std::span<Gaussian> mixture, VarianceStep variance) {
   const double enough = tolerance * samples.total_weight();
   double posterior = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_iterations; ++i) {
     const Expectation e = expectation(samples, mixture);
     const double now = e.log_likelihood + log_prior(prior, mixture);
-    maximise(e, prior, step, mixture);
+    maximise(e, prior, step, mixture, variance);
     const double gain = now - posterior;
     posterior = now;
     if (std::abs(gain) < enough) break;  // the published step may lower the posterior

@@ -48,6 +48,11 @@ class Prior {
 /// by c instead of 2 sigma^2 c.
 enum class MStep { exact, published };
 
+/// The update of the variance. exact: the responsibilities' mean of |n - mu|^2 / 2. published: as the paper prints it,
+/// which divides that mean by the number M of samples again. published_share: the printed sum over 2 M alone, without
+/// the division by the sum of responsibilities.
+enum class VarianceStep { exact, published, published_share };
+
 /// Where EM starts. inherit: from the coarser texel's mixture, so that components keep their meaning from level to
 /// level, or as dense_seed if there is none. dense_seed: the best of clusters, a seed on the densest spot, and the
 /// coarser texel's mixture if there is one. clusters: only from clusters, as in the paper.
@@ -57,6 +62,7 @@ struct FitSettings {
   std::size_t components = 4;  ///< 1 to most_components
   bool align = true;           ///< neighbours attract the means; otherwise each texel on its own
   MStep m_step = MStep::exact;
+  VarianceStep variance = VarianceStep::exact;
   Start start = Start::inherit;
   bool full_covariance = false;  ///< full covariances, by EM from the isotropic mixture
   double prior_weight = 1.0;     ///< c of the prior
@@ -83,7 +89,8 @@ struct Expectation {
 
 /// The M-step: alpha = sum / M, then mu with the variance before the step, then sigma^2 per axis about the new mean,
 /// limited to the floor. A component without samples keeps mean and variance, and gets alpha 0.
-void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Gaussian> mixture);
+void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Gaussian> mixture,
+              VarianceStep variance = VarianceStep::exact);
 
 /// The log of the prior of a mixture.
 [[nodiscard]] double log_prior(const Prior& prior, std::span<const Gaussian> mixture);
@@ -91,7 +98,7 @@ void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Ga
 /// Iterates until the posterior gains less than `tolerance` per unit of sample weight, `most_iterations` at most.
 /// Returns the posterior before the last step.
 double iterate(const Samples& samples, const Prior& prior, MStep step, int most_iterations, double tolerance,
-               std::span<Gaussian> mixture);
+               std::span<Gaussian> mixture, VarianceStep variance = VarianceStep::exact);
 
 /// A Gaussian over the disc with a full covariance, times alpha.
 struct FullGaussian {

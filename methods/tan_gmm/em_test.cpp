@@ -209,6 +209,31 @@ TEST(TanEm, PublishedMStepHasItsOwnPrior) {
   EXPECT_EQ(wide, other);
 }
 
+// Of M samples, N of them the component's, the printed variance is the exact one over M, or times N / M; its floor
+// stays.
+TEST(TanEm, PublishedVarianceIsOutOfScale) {
+  std::mt19937 random(3);
+  const Problem p = random_problem(random, 40, 2);
+  const Expectation e = expectation(p.samples, p.mixture);
+  const auto stepped = [&](VarianceStep variance) {
+    std::vector<Gaussian> mixture = p.mixture;
+    maximise(e, p.prior(), MStep::exact, mixture, variance);
+    return mixture;
+  };
+  const std::vector<Gaussian> exact = stepped(VarianceStep::exact);
+  const std::vector<Gaussian> published = stepped(VarianceStep::published);
+  const std::vector<Gaussian> share = stepped(VarianceStep::published_share);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_GT(exact[i].variance, 40.0F * variance_floor);
+    EXPECT_NEAR(published[i].variance * 40.0F / exact[i].variance, 1.0F, 1e-5F);
+    EXPECT_NEAR(share[i].variance / (exact[i].alpha * exact[i].variance), 1.0F, 1e-5F);
+    EXPECT_EQ(published[i].x, exact[i].x);
+  }
+  std::vector<Gaussian> mixture = p.mixture;
+  iterate(p.samples, p.prior(), MStep::exact, 40, 1e-4, mixture, VarianceStep::published);
+  for (const Gaussian& g : mixture) EXPECT_GE(g.variance, variance_floor);
+}
+
 // 200 random small problems: the exact step never lowers the posterior, the published one does in most of them.
 TEST(TanEm, ExactStepNeverLowersThePosterior) {
   int lowered_by_published = 0;

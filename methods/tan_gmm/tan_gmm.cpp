@@ -24,6 +24,9 @@ std::vector<OptionSpec> option_table() {
       word_option("m_step", {"exact", "published"},
                   "The mean's update: the maximum of the posterior, or the paper's approximation, which weighs the "
                   "neighbours by c instead of 2 sigma^2 c and can lower the posterior."),
+      word_option("variance", {"exact", "published", "published_share"},
+                  "The variance's update: the mean square over the component's samples; as the paper prints it, over "
+                  "the number of samples again; or with that instead of the component's own number."),
       word_option(
           "moment", {"corrected", "published"},
           "The stored second moment: alpha (2 sigma^2 + |mu|^2), or the paper's alpha (sigma^2 + |mu|^2), which "
@@ -42,7 +45,7 @@ std::vector<OptionSpec> option_table() {
                   "component's tilt."),
       word_option("covariance", {"isotropic", "full"},
                   "One variance for each component, as in the paper, or a whole covariance, by EM from there on; the "
-                  "base lobe is then stretched, and `lobe`, `moment` and `m_step` are as by default."),
+                  "base lobe is then stretched, and `lobe`, `moment`, `m_step` and `variance` are as by default."),
       word_option("rim", {"normalized", "cut"},
                   "lobe=gaussian: what becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is "
                   "lost, or cut off there, as in the paper.")};
@@ -60,10 +63,16 @@ tan_gmm::Start start_of(const std::string& init) {
   return init == "kmeans" ? tan_gmm::Start::clusters : tan_gmm::Start::inherit;
 }
 
+tan_gmm::VarianceStep variance_of(const std::string& variance) {
+  if (variance == "exact") return tan_gmm::VarianceStep::exact;
+  return variance == "published" ? tan_gmm::VarianceStep::published : tan_gmm::VarianceStep::published_share;
+}
+
 Settings settings_of(const Options& options) {
   return {.fit = {.components = static_cast<std::size_t>(options.number("n")),
                   .align = options.word("align") == "on",
                   .m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published,
+                  .variance = variance_of(options.word("variance")),
                   .start = start_of(options.word("init")),
                   .full_covariance = options.word("covariance") == "full",
                   .prior_weight = options.number("c")},

@@ -131,8 +131,8 @@ class Trials {
       : samples_(&samples), prior_(&prior), settings_(&settings), best_(best) {}
 
   void take(std::span<Gaussian> start) {
-    const double posterior =
-        iterate(*samples_, *prior_, settings_->m_step, settings_->trial_iterations, settings_->tolerance, start);
+    const double posterior = iterate(*samples_, *prior_, settings_->m_step, settings_->trial_iterations,
+                                     settings_->tolerance, start, settings_->variance);
     if (posterior <= greatest_) return;
     greatest_ = posterior;
     std::ranges::copy(start, best_.begin());
@@ -270,7 +270,7 @@ void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gauss
   } else {
     start_from_best(samples, prior, parent, settings, mixture);
   }
-  iterate(samples, prior, settings.m_step, settings.most_iterations, settings.tolerance, mixture);
+  iterate(samples, prior, settings.m_step, settings.most_iterations, settings.tolerance, mixture, settings.variance);
 }
 
 }  // namespace footprint::tan_gmm

@@ -105,6 +105,7 @@ Settings settings_of(const Options& options) {
                                    : 8,
           .camera_space = options.word("space") == "camera",
           .table = options.word("conversion") == "table",
+          .joint = options.word("specular") == "joint",
           .always_built = options.word("rebuild") == "always",
           .storage = parse_storage(options.word("storage"))};
 }
@@ -165,7 +166,7 @@ void InstantMap::run(const FrameBuildJob& job) const {
 
 // Binds the inputs of the program.
 void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const {
-  constexpr std::array inputs{normals_name, variances_name, table_name};
+  constexpr std::array inputs{normals_name, variances_name, table_name, colours_name};
   for (GLuint unit = 0; unit < inputs.size(); ++unit) {
     if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
       bind(unit, *input->texture, samplers_.sampler(input->coordinates, SamplerState::nearest));

@@ -16,7 +16,7 @@ namespace footprint::xu_vmf {
 inline constexpr std::string_view whole_name = "xu_vmf_whole", parts_name = "xu_vmf_parts";
 inline constexpr std::string_view whole_guard_name = "xu_vmf_whole_guard", parts_guard_name = "xu_vmf_parts_guard";
 inline constexpr std::string_view normals_name = "xu_vmf_normals", variances_name = "xu_vmf_variances";
-inline constexpr std::string_view table_name = "xu_vmf_shortfalls";
+inline constexpr std::string_view table_name = "xu_vmf_shortfalls", colours_name = "xu_vmf_colours";
 
 /// Layers of the texture of the whole hemisphere: 1 if facets have one lobe, otherwise one for each of their lobes and
 /// one of normals alone.
@@ -31,6 +31,7 @@ struct Settings {
   int most_lobes;  ///< of a pixel, for one lobe of its facets: 1, 4 or 8 parts
   bool camera_space;
   bool table;         ///< |r| of kappa from a table, otherwise by Newton's steps
+  bool joint;         ///< facets weigh by the luminance of their specular colour
   bool always_built;  ///< for every frame, otherwise only when an input has changed
   Storage storage;
 

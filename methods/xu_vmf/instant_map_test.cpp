@@ -124,6 +124,44 @@ TEST_P(XuMap, HoldsTheMeansOfTheCoveredTexels) {
   }
 }
 
+// With specular=joint texels weigh by the luminance of their specular colour over the largest; without a map of colours
+// nothing changes.
+TEST(XuMap, WeighsTexelsByTheirSpecularColour) {
+  const Image normals = checked_normals();
+  Image roughness(13, 7, 1), colours(13, 7, 3);
+  for (std::size_t i = 0; i < roughness.texels.size(); ++i) {
+    roughness.texels[i] = 0.2F + 0.7F * static_cast<float>(i % 9) / 9.0F;
+    for (std::size_t c = 0; c < 3; ++c) colours.texels[3 * i + c] = 0.1F + 0.4F * static_cast<float>(i % 5) / 4.0F;
+  }
+  Scene scene = rough_square(normals, roughness);
+  scene.materials[0].specular_map = TextureMap{"colours", std::make_shared<Image>(colours), {}};
+  std::vector<Image> finest = finest_twin(normals, roughness, true, glm::dmat3(1.0));
+  const std::vector<Image> plain = finest;
+  for (Image& layer : finest) {
+    for (std::size_t i = 0; i < layer.texels.size(); ++i) layer.texels[i] *= 2.0F * colours.texels[3 * (i / 4)];
+  }
+  for (const std::string space : {"tangent", "camera"}) {
+    expect_levels(BuiltMap(scene, {{"specular", "joint"}, {"j", "8"}, {"space", space}}), "xu_vmf_parts",
+                  parts_twin(finest, "8"), 1, false);
+  }
+  expect_levels(BuiltMap(scene, {{"j", "8"}}), "xu_vmf_parts", parts_twin(plain, "8"), 1, false);
+  expect_levels(BuiltMap(rough_square(normals, roughness), {{"specular", "joint"}, {"j", "8"}}), "xu_vmf_parts",
+                parts_twin(plain, "8"), 1, false);
+}
+
+// A map of colours that lies elsewhere cannot be joined texel by texel: a note says so, and it has no weight.
+TEST(XuMap, LeavesColoursThatLieElsewhere) {
+  Scene scene = rough_square(checked_normals(), Image(13, 7, 1, 0.5F));
+  const auto colours = std::make_shared<Image>(2, 2, 3, 0.5F);
+  colours->at(0, 0)[1] = 1.0F;
+  scene.materials[0].specular_map = TextureMap{"colours", colours, {}};
+  scene.materials[0].specular_map->coordinates.transform = {3.0F, 0.0F, 0.0F, 2.0F, 0.3F, 0.1F};
+  const BuiltMap joint(scene, {{"specular", "joint"}, {"j", "8"}});
+  ASSERT_FALSE(joint.baked().notes.empty());
+  EXPECT_NE(joint.baked().notes.back().find("cannot be joined"), std::string::npos);
+  EXPECT_EQ(joint.level("xu_vmf_parts", 0).texels, BuiltMap(scene, {{"j", "8"}}).level("xu_vmf_parts", 0).texels);
+}
+
 std::vector<MapCase> map_cases() {
   std::vector<MapCase> cases;
   for (const std::string j : {"1", "4", "8", "adaptive"}) {

@@ -9,6 +9,7 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
+#include "renderer/image/image.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/lobes/lobe.hpp"
 
@@ -39,6 +40,9 @@ std::vector<OptionSpec> option_table() {
                       "von Mises-Fisher lobe."),
           word_option("conversion", {"newton", "table"},
                       "How |r| comes of kappa: by Newton's steps, or from a table of 1024 entries."),
+          word_option("specular", {"separate", "joint"},
+                      "Whether the map of specular colours is filtered on its own, or texels also weigh by the "
+                      "luminance of theirs: what is bright and what is narrow are then filtered together."),
           word_option("storage", {"fp32", "fp16"}, "How the map is stored: 32-bit or half floats."),
           word_option("rebuild", {"always", "changed"},
                       "When the map is built: for every frame, or when something that goes into it has changed."),
@@ -48,14 +52,29 @@ std::vector<OptionSpec> option_table() {
           threshold_option("eps1", 0.85, "j=adaptive: one lobe serves one of the 4 parts where its |r| is above.")};
 }
 
+bool same_place(const TextureCoordinates& a, const TextureCoordinates& b) {
+  return a.set == b.set && a.transform == b.transform && a.wrap == b.wrap;
+}
+
 // Whether the maps can be joined texel by texel: a point of the surface is the same point in both. A missing map joins
 // with any other.
 bool can_join(const Material& material) {
   if (width_map(material) == nullptr) return true;
-  const TextureCoordinates normal = normal_coordinates(material);
   const TextureCoordinates roughness = roughness_coordinates(material);
-  const bool same_wrap = !material.normal_map || normal.wrap == roughness.wrap;
-  return normal.set == roughness.set && normal.transform == roughness.transform && same_wrap;
+  TextureCoordinates normal = normal_coordinates(material);
+  if (!material.normal_map) normal.wrap = roughness.wrap;
+  return same_place(normal, roughness);
+}
+
+// The luminance of the specular colour's map, over its largest.
+Image specular_weights(const Material& material) {
+  const Image colours = specular_map_of(material);
+  Image weights(colours.width, colours.height, 1);
+  for (std::size_t i = 0; i < weights.texels.size(); ++i)
+    weights.texels[i] = luminance(colours.texels[3 * i], colours.texels[3 * i + 1], colours.texels[3 * i + 2]);
+  const float largest = std::max(*std::ranges::max_element(weights.texels), 1e-6F);
+  for (float& weight : weights.texels) weight /= largest;
+  return weights;
 }
 
 // 1 - |r| over the logarithm of kappa, 0.01 to 100 000. |r| itself is near 1 over most of the range.
@@ -71,21 +90,24 @@ Image shortfall_table() {
 
 // The maps to join, and their coordinates.
 struct Inputs {
-  bool normals_vary, roughness_varies;
-  Image normals, variances;
+  bool normals_vary, roughness_varies, colours_vary;
+  Image normals, variances, weights;
   TextureCoordinates coordinates;
 
-  Inputs(const Material& material, const EffectSet& effects)
+  Inputs(const Material& material, const EffectSet& effects, bool joint)
       : normals_vary(has(effects, Effect::normal_variation)),
         roughness_varies(has(effects, Effect::roughness_variation)),
+        colours_vary(joint && has(effects, Effect::specular_variation)),
         normals(normals_vary ? normal_map_of(material) : Image(1, 1, 4)),
         variances(roughness_varies ? lobe_variance_map(material) : Image(1, 1, 1)),
+        weights(colours_vary ? specular_weights(material) : Image(1, 1, 1)),
         coordinates(normals_vary && material.normal_map ? normal_coordinates(material)
                                                         : roughness_coordinates(material)) {}
 
   [[nodiscard]] bool anything() const { return normals_vary || roughness_varies; }
   [[nodiscard]] glm::ivec2 size() const {
-    return {std::max(normals.width, variances.width), std::max(normals.height, variances.height)};
+    return {std::max({normals.width, variances.width, weights.width}),
+            std::max({normals.height, variances.height, weights.height})};
   }
 };
 
@@ -132,6 +154,11 @@ void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, cons
   // Shading reads the coarser levels for the facets' own share of a lobe's width.
   if (inputs.roughness_varies)
     add(xu_vmf::variances_name, mip_chain(std::move(inputs.variances)), roughness_coordinates(material));
+  if (inputs.colours_vary) {
+    std::vector<Image> weights;
+    weights.push_back(std::move(inputs.weights));
+    add(xu_vmf::colours_name, std::move(weights), specular_coordinates(material));
+  }
   if (settings.table) add(xu_vmf::table_name, {shortfall_table()}, {});
 }
 
@@ -144,6 +171,11 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_v
         "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
         "variance stands in");
   }
+  if (inputs.colours_vary && material.specular_map && !same_place(inputs.coordinates, specular_coordinates(material))) {
+    inputs.weights = Image(1, 1, 1, 1.0F);
+    out.notes.emplace_back(
+        "the map of specular colours has other texture coordinates and cannot be joined; it is filtered on its own");
+  }
   declare_maps(out, inputs.size(), inputs.coordinates, layers_of(material, effects), settings, effects);
   add_inputs(out, inputs, material, settings);
   return out;
@@ -152,16 +184,17 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_v
 /// The frame build filters. Therefore the bake consists of its inputs and the coordinates of its map.
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& /*progress*/) {
-  Inputs inputs(material, effects);
+  const xu_vmf::Settings settings = xu_vmf::settings_of(options);
+  Inputs inputs(material, effects, settings.joint);
   if (!inputs.anything()) return {};
-  return in_tangent_space(std::move(inputs), material, xu_vmf::settings_of(options), effects);
+  return in_tangent_space(std::move(inputs), material, settings, effects);
 }
 
 Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& options, const EffectSet& effects,
                           const Progress& progress) {
   const Material& material = scene.materials.at(index);
   const xu_vmf::Settings settings = xu_vmf::settings_of(options);
-  Inputs inputs(material, effects);
+  Inputs inputs(material, effects, settings.joint);
   if (!settings.camera_space || !inputs.anything()) return precompute(material, options, effects, progress);
   xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
   // In a scene with maps, the single texel of a material without maps would show one normal of the whole mesh.

@@ -19,6 +19,9 @@ layout(binding = 1) uniform sampler2D variances;  // of the base lobe's slopes
 //? if conversion_table
 layout(binding = 2) uniform sampler2D shortfalls;
 //? end
+//? if specular_joint and specular_variation
+layout(binding = 3) uniform sampler2D colours;  // luminance of the specular colour, over the largest
+//? end
 
 //? if camera
 in vec3 world_position;
@@ -39,12 +42,14 @@ bool facesViewer() {
   return dot(outward, viewer.xyz - viewer.w * world_position) > 0.0;
 }
 
-vec2 mapped(int slot) {
-  vec2 uv = uv_offset_set[slot].z < 0.5 ? uv0 : uv1;
-  return mat2(uv_linear[slot].xy, uv_linear[slot].zw) * uv + uv_offset_set[slot].xy;
+vec4 texelAt(sampler2D map, vec4 linear, vec4 offset_set) {
+  vec2 uv = offset_set.z < 0.5 ? uv0 : uv1;
+  return textureLod(map, mat2(linear.xy, linear.zw) * uv + offset_set.xy, 0.0);
 }
-
-vec4 texelOf(sampler2D map, int slot) { return textureLod(map, mapped(slot), 0.0); }
+vec4 texelOf(sampler2D map, int slot) { return texelAt(map, uv_linear[slot], uv_offset_set[slot]); }
+//? if specular_joint and specular_variation
+float weightOf(sampler2D map) { return texelAt(map, specular_uv_linear, specular_uv_offset_set).r; }
+//? end
 //? else
 uniform ivec2 map_size;
 
@@ -52,6 +57,7 @@ uniform ivec2 map_size;
 vec4 texelOf(sampler2D map, int slot) {
   return texelFetch(map, ivec2(gl_FragCoord.xy) * textureSize(map, 0) / map_size, 0);
 }
+float weightOf(sampler2D map) { return texelOf(map, 0).r; }
 //? end
 
 //? if multi_lobe
@@ -96,8 +102,12 @@ void main() {
   if (!front && !two_sided) return;
   axis = world_to_camera * (tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis);
 //? end
-  joined = stored(vec4((1.0 - q) * axis, 1.0));
+  float weight = 1.0;
+//? if specular_joint and specular_variation
+  weight = weightOf(colours);
+//? end
+  joined = stored(weight * vec4((1.0 - q) * axis, 1.0));
 //? if guard
-  guard = stored(vec4(q, 0.0, 0.0, 1.0));
+  guard = stored(weight * vec4(q, 0.0, 0.0, 1.0));
 //? end
 }

@@ -25,6 +25,25 @@ inline constexpr std::array<Word<Verdict>, 3> verdict_words{{
 }};
 constexpr const auto& words_of(Verdict /*verdict*/) { return verdict_words; }
 
+/// Whose statement a claim is. Only a paper's own count as reproduced or not; the others are counted apart.
+enum class ClaimSource {
+  paper,        ///< the paper says or shows it
+  gpu_time,     ///< the paper says it of times on a GPU, which frames of a software renderer cannot decide
+  closed_form,  ///< a formula of the paper, evaluated
+  our_measure,  ///< the paper says it, but the measure, the setting or the limit is our choice
+  ours          ///< no paper says it
+};
+
+/// As experiment files and reports write it, the paper's own first.
+inline constexpr std::array<Word<ClaimSource>, 5> claim_source_words{{
+    {ClaimSource::paper, "paper"},
+    {ClaimSource::gpu_time, "gpu_time"},
+    {ClaimSource::closed_form, "closed_form"},
+    {ClaimSource::our_measure, "our_measure"},
+    {ClaimSource::ours, "ours"},
+}};
+constexpr const auto& words_of(ClaimSource /*source*/) { return claim_source_words; }
+
 /// A figure that a paper prints, and the one that was measured.
 struct PublishedFigure {
   std::string figure;   ///< where it is printed: "Figure 4"
@@ -44,7 +63,9 @@ struct ClaimFigure {
 
 /// The outcome of a claim.
 struct ClaimOutcome {
-  std::string name, text, inequality;
+  std::string name, text;
+  ClaimSource source = ClaimSource::ours;
+  std::string inequality;
   Verdict expect = Verdict::reproduced;
   Verdict outcome = Verdict::undecided;
   std::string reason;   ///< why that is expected

@@ -277,6 +277,7 @@ void fields(auto& archive, Is<ClaimFigure> auto& value) {
 void fields(auto& archive, Is<ClaimOutcome> auto& value) {
   archive("name", value.name);
   archive("text", value.text);
+  archive("source", value.source);
   archive("inequality", value.inequality);
   archive("expect", value.expect);
   archive("outcome", value.outcome);

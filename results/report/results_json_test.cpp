@@ -92,6 +92,8 @@ TEST(ResultsJson, TheBoundOfASampleCountIsNextToIt) {
 
 TEST(ResultsJson, ClaimsSayHowTheyCameOut) {
   const json claims = json::parse(results_json(example_results()))["experiment"]["claims"];
+  EXPECT_EQ(claims[0]["source"], "gpu_time");
+  EXPECT_EQ(claims[1]["source"], "ours");  // the default
   EXPECT_EQ(claims[0]["expect"], "reproduced");
   EXPECT_EQ(claims[0]["outcome"], "reproduced");
   EXPECT_EQ(claims[0]["as_expected"], true);

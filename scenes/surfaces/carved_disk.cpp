@@ -166,11 +166,21 @@ Height carving(const HeightPoint& at, const Hand& hand) {
   return ring_at(Polar{sqrt(squared), atan2(at.y, at.x)}, hand) + hand.hammering(at);
 }
 
+/// Concentric V-shaped grooves over the whole disk, whose sides lean by the angle of tangent `tilt`.
+glm::dvec2 engraving(const glm::dvec2& at, double tilt) {
+  constexpr double grooves = 64.0;
+  const double radius = glm::length(at), across = grooves * radius;
+  if (radius <= 0.0 || radius >= 1.0) return glm::dvec2(0.0);
+  return (across - std::floor(across) < 0.5 ? -tilt : tilt) / radius * at;
+}
+
 Image normals(const SurfaceSettings& settings) {
   const Hand hand(settings.seed, settings.parameters.number("unevenness"));
   const double depth = settings.parameters.number("depth");
+  const double tilt = std::tan(glm::radians(settings.parameters.number("engraving_degrees")));
   return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    return normal_of_slope(depth * slope_of(carving(HeightPoint{2.0 * uv - 1.0}, hand)));
+    const glm::dvec2 at = 2.0 * uv - 1.0;
+    return normal_of_slope(depth * slope_of(carving(HeightPoint{at}, hand)) + engraving(at, tilt));
   });
 }
 
@@ -209,6 +219,8 @@ Surface surface() {
           .parameters = {number_option("depth", 1.0, 0, 4, "factor on the carving's depth"),
                          number_option("unevenness", 0.12, 0, 0.9,
                                        "how much strokes and ground differ from even, as a share"),
+                         number_option("engraving_degrees", 0.0, 0, 60,
+                                       "tilt of the sides of V-shaped grooves, 64 from the middle to the rim, degrees"),
                          number_option("dish", 0.08, -0.5, 0.5, "height of the rim over the middle, in radii")},
           .default_resolution = 1024,
           .normals = normals,

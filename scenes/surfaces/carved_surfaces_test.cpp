@@ -99,6 +99,17 @@ TEST(CarvedDisk, RepeatsAroundTheMiddleButForTheHand) {
   EXPECT_GT(share_differing(make_map("carved_disk", 201)), 0.5);
 }
 
+TEST(CarvedDisk, EngravingHasTwoSlopesOfOneTilt) {
+  const Image map = make_map("carved_disk", 512, {{"depth", "0"}, {"engraving_degrees", "30"}});
+  int inward = 0, outward = 0;
+  for (int x = 257; x < 511; ++x) {  // the row of texels to the right of the middle
+    EXPECT_NEAR(map.at(x, 256)[2], std::cos(glm::radians(30.0)), 1e-5);
+    (map.at(x, 256)[0] > 0.0F ? outward : inward) += 1;
+  }
+  EXPECT_NEAR(inward, outward, 8);
+  EXPECT_EQ(map.at(0, 0)[2], 1.0F);  // beyond the rim
+}
+
 TEST(GoldenArmor, ScalesAreRoundedAllOver) {
   const Image map = make_map("golden_armor", 512, {{"unevenness", "0"}});
   double lowest = 1.0, up = 0.0;

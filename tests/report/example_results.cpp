@@ -102,6 +102,7 @@ ExperimentReport example_experiment(const std::string& text) {
                          .note = "from the cache"}},
           .claims = {{.name = "passes",
                       .text = "It passes." + text,
+                      .source = ClaimSource::gpu_time,
                       .inequality = "error(toksvig) < error(direct)",
                       .expect = Verdict::reproduced,
                       .outcome = Verdict::reproduced,

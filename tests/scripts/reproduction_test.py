@@ -9,7 +9,8 @@ import tomllib
 import unittest
 
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
-NAME = "tan2005_fig6"  # an experiment of one claim
+NAME = "tan2005_fig6"
+MISCOUNTED = "Tan et al. 2005: the paper's own: the document does not count the claims that it has"
 
 
 def script(name, *arguments):
@@ -79,7 +80,8 @@ class Document(Tree):
         super().setUp()
         for part in ("experiments", "results/published"):
             shutil.copytree(SOURCE / part, self.folder / part, ignore=shutil.ignore_patterns("*.cpp", "*.hpp", "*.txt"))
-        claim = tomllib.loads((SOURCE / "experiments" / f"{NAME}.toml").read_text(encoding="utf-8"))["claim"][0]
+        self.claims = tomllib.loads((SOURCE / "experiments" / f"{NAME}.toml").read_text(encoding="utf-8"))["claim"]
+        claim = self.claims[0]
         document = results(0.01, 0.02)
         document["experiment"]["claims"][0].update(name=claim["name"], inequality=claim["inequality"])
         out = self.write(NAME, document)
@@ -108,13 +110,71 @@ class Document(Tree):
 
     def test_a_claim_that_is_missing_changed_or_no_more_is_reported(self):
         row = next(line for line in self.text.splitlines() if "0.01 against 0.02" in line)
-        name = row.split("`")[1]
-        self.assertEqual(self.faults(self.text.replace(row + "\n", "")), [f"{NAME}: the claim {name} is not in the document"])
+        name, claims = row.split("`")[1], len(self.claims)
+        self.assertEqual(self.faults(self.text.replace(row + "\n", "")),
+                         [MISCOUNTED, f"{NAME}: the claim {name} is not in the document"])
         self.assertEqual(self.faults(self.text.replace(row, row.replace("error(", "relmse("))),
                          [f"{NAME}: the claim {name} is not what its file says"])
         self.assertEqual(self.faults(self.text.replace(row, row + "\n" + row.replace(name, "another"))),
-                         [f"{NAME}: the document has 2 claims, its file 1"])
+                         [MISCOUNTED, f"{NAME}: the document has {claims + 1} claims, its file {claims}"])
         self.assertEqual(self.faults(self.text.replace(f"#### `{NAME}`", "#### gone")), [f"{NAME}: is not in the document"])
+
+    def rewritten(self, change, **results_of_another):
+        """The document after another run, of `tan2005_fig5`, into the same folder, whose file of NAME `change` changed."""
+        copy = self.folder / "copy"
+        shutil.copytree(SOURCE / "scripts", copy / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
+        for part in ("experiments", "results"):
+            shutil.move(self.folder / part, copy / part)
+        file = copy / "experiments" / f"{NAME}.toml"
+        file.write_text(change(file.read_text(encoding="utf-8")), encoding="utf-8")
+        shutil.rmtree(self.folder / "out")
+        out = self.write("tan2005_fig5", results(0.3, 0.4, **results_of_another))
+        subprocess.run([copy / "scripts/reproduction", out, self.folder / "docs"], check=True)
+        return (self.folder / "docs/reproduction.md").read_text(encoding="utf-8")
+
+    def test_another_run_leaves_what_it_did_not_measure(self):
+        text = self.rewritten(lambda content: content.replace('text = "', 'text = "Newly said: '))
+        row = next(line for line in text.splitlines() if "0.01 against 0.02" in line)
+        self.assertIn("| Newly said: ", row)
+        self.assertIn("| reproduced |", row)
+        self.assertEqual(text.count("Warning: a \\| bar."), 2)  # of both runs
+
+    def test_a_claim_on_a_printed_figure_is_judged_by_its_row(self):
+        table = "| Figure 6 | `fps(tan_gmm)` | 9 fps | 2.5 fps | note |\n| Figure 6 | `precompute(tan_gmm)` | 300 s | n/a | note |"
+        page = self.folder / "docs/reproduction.md"
+        page.write_text(self.text.replace("| claim |", f"{table}\n\n| claim |"), encoding="utf-8")
+        wanted = ("fps(tan_gmm) >= 2.5", "fps(tan_gmm) > 2.5", "fps(tan_gmm) >= 9", "precompute(tan_gmm) <= 300", "fps(other) < 9")
+        claims = "".join(f'[[claim]]\nname = "c{i}"\ntext = "t"\nsource = "ours"\ninequality = "{text}"\n'
+                         'expect = "reproduced"\nreason = "r"\n' for i, text in enumerate(wanted))
+        text = self.rewritten(lambda content: claims + content)
+        rows = [next(line for line in text.splitlines() if f"`{inequality}`" in line) for inequality in wanted]
+        self.assertEqual([row.split(" | ")[-3:-1] for row in rows],
+                         [["2.5 against 2.5", "reproduced"], ["2.5 against 2.5", "**not reproduced**; expected: reproduced"],
+                          ["2.5 against 9", "**not reproduced**; expected: reproduced"], ["n/a", "not measured"],
+                          ["n/a", "not measured"]])
+
+    def test_a_claim_whose_inequality_changed_is_not_measured(self):
+        text = self.rewritten(lambda content: content.replace("error(tan_gmm) <", "relmse(tan_gmm) <"))
+        self.assertNotIn("0.01 against 0.02", text)
+        self.assertIn("`relmse(tan_gmm) < error(tan_gmm:align=off)` | n/a | not measured |", text)
+
+    def test_an_outcome_that_is_no_longer_expected_is_marked(self):
+        text = self.rewritten(lambda content: content.replace('expect = "reproduced"', 'expect = "not_reproduced"'))
+        self.assertIn("0.01 against 0.02 | reproduced; expected: not reproduced |", text)
+
+    def test_claims_are_counted_by_their_source(self):
+        counted = next(line for line in self.text.splitlines() if line.startswith("| Tan et al. 2005: the paper's own |"))
+        number, *outcomes = map(int, counted[2:-2].split(" | ")[1:])
+        self.assertEqual((outcomes[:3], sum(outcomes)), ([1, 0, 0], number))
+        self.assertEqual(self.faults(self.text.replace(counted, counted.replace("| 1 |", "| 2 |"))),
+                         [MISCOUNTED])
+        moved = self.text.replace("| paper | Interpolation of unaligned", "| ours | Interpolation of unaligned")
+        self.assertIn(f"{NAME}: the claim aligned_under_unaligned is not what its file says", self.faults(moved))
+
+    def test_a_claim_without_a_source_is_reported(self):
+        file = self.folder / "experiments" / f"{NAME}.toml"
+        file.write_text(file.read_text(encoding="utf-8").replace('source = "paper"\n', "", 1), encoding="utf-8")
+        self.assertIn(f"{NAME}: the claim aligned_under_unaligned has no source", self.faults())
 
     def test_an_experiment_that_shows_no_figure_is_reported(self):
         shutil.copy(SOURCE / "experiments" / f"{NAME}.toml", self.folder / "experiments/tan2005_new.toml")

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -80,7 +81,30 @@ Spread spread_of(const SphericalGaussian& lobe, std::span<const glm::dvec3> midd
 struct Sums {
   double squares = 0.0;      // of gamma~
   double differences = 0.0;  // of gamma~ minus the lobes, squared
+  double occupied = 0.0;     // the same over cells with facets
+  double cells = 0.0;        // with facets
+
+  void add(const Sums& other, double share) {
+    squares += share * other.squares;
+    differences += share * other.differences;
+    occupied += share * other.occupied;
+    cells += share * other.cells;
+  }
 };
+
+// gamma~ of a bin for a pair of directions.
+double seen(const Bvndf& bvndf, Cosines cosines, std::size_t bin, std::size_t wi, std::size_t wo) {
+  const auto cosine = [&](std::size_t d) {
+    return std::max(glm::dot(bvndf.bins[bin].normal, bvndf.directions[d]), 0.0);
+  };
+  const double value = bvndf.gamma(bin, wi, wo) * cosine(wo) / bvndf.visible_area[wo];
+  return cosines == Cosines::published ? value * cosine(wi) : value;
+}
+
+// The mass of a lobe for a pair of directions.
+double mass_of(const Amplitudes& table, std::size_t lobe, std::size_t wi, std::size_t wo) {
+  return double{table.masses[(lobe * table.directions + wi) * table.directions + wo]};
+}
 
 // The contribution of one pair of directions. A facet's normal is as wide as the sharpest lobe, so that a lobe for a
 // single normal fits it exactly. The difference is summed directly over cells with facets. Over the other cells only
@@ -111,16 +135,18 @@ class PairSums {
   [[nodiscard]] Sums of(std::size_t wi, std::size_t wo) const {
     Sums sums;
     if (bvndf_.visible_area[wo] <= 0.0) return sums;
-    const std::size_t n = shares_.size(), pairs = table_.directions * table_.directions;
-    const auto mass = [&](std::size_t j) { return double{table_.masses[j * pairs + wi * table_.directions + wo]}; };
+    const std::size_t n = shares_.size();
+    const auto mass = [&](std::size_t j) { return mass_of(table_, j, wi, wo); };
     for (const auto& [cell, bins] : bins_in_) {
       double exact = 0.0;
-      for (const auto& [bin, share] : bins) exact += share * seen(bin, wi, wo);
+      for (const auto& [bin, share] : bins) exact += share * seen(bvndf_, cosines_, bin, wi, wo);
       double difference = exact;
       for (std::size_t j = 0; j < n; ++j) difference -= mass(j) * shares_[j][cell];
       sums.squares += exact * exact;
       sums.differences += difference * difference;
     }
+    sums.occupied = sums.differences;
+    sums.cells = static_cast<double>(bins_in_.size());
     for (std::size_t a = 0; a < n; ++a) {
       for (std::size_t b = 0; b < n; ++b) sums.differences += mass(a) * mass(b) * elsewhere_[a * n + b];
     }
@@ -128,15 +154,6 @@ class PairSums {
   }
 
  private:
-  // Returns gamma~ of a bin.
-  [[nodiscard]] double seen(std::size_t bin, std::size_t wi, std::size_t wo) const {
-    const auto cosine = [&](std::size_t d) {
-      return std::max(glm::dot(bvndf_.bins[bin].normal, bvndf_.directions[d]), 0.0);
-    };
-    const double value = bvndf_.gamma(bin, wi, wo) * cosine(wo) / bvndf_.visible_area[wo];
-    return cosines_ == Cosines::published ? value * cosine(wi) : value;
-  }
-
   const Bvndf& bvndf_;
   const Amplitudes& table_;
   Cosines cosines_;
@@ -145,30 +162,94 @@ class PairSums {
   std::vector<double> elsewhere_;
 };
 
-// Means over all cells and pairs.
-Sums mean_squares(const Patch& patch, TableSettings settings) {
-  settings.channels = 1;
-  settings.paints.assign(1, {});
-  Patch plain = patch;
-  plain.paints.clear();
-  const Bvndf bvndf = patch_bvndf(plain, settings, no_progress);
-  const MaterialTable table = patch_table(plain, settings, no_progress);
-  const PairSums pair_sums(bvndf, table.amplitudes, settings.cosines);
-  const std::size_t n = bvndf.directions.size();
-  std::vector<Sums> rows(n);
-  tbb::parallel_for(std::size_t{0}, n, [&](std::size_t wi) {
-    for (std::size_t wo = 0; wo < n; ++wo) {
-      const Sums pair = pair_sums.of(wi, wo);
-      rows[wi].squares += pair.squares;
-      rows[wi].differences += pair.differences;
+// Distances between gamma~ and its lobes after a convolution of both, per direction wi. All lobes have unit energy, so
+// that integrals of products are those of unit amplitudes over both integrals.
+class ConvolvedSums {
+ public:
+  ConvolvedSums(const Bvndf& bvndf, const Amplitudes& table, Cosines cosines, double sharpness)
+      : bvndf_(bvndf), table_(table), cosines_(cosines) {
+    const auto convolved = [&](const SphericalGaussian& lobe) {
+      return SphericalGaussian{lobe.axis, lobe.sharpness * sharpness / (lobe.sharpness + sharpness)};
+    };
+    std::vector<SphericalGaussian> facets, lobes;
+    for (const auto& bin : bvndf.bins) facets.push_back(convolved({bin.normal, sharpest}));
+    for (const SphericalGaussian& lobe : table.lobes) lobes.push_back(convolved(lobe));
+    facets_ = products(facets, facets);
+    mixed_ = products(facets, lobes);
+    lobes_ = products(lobes, lobes);
+  }
+
+  [[nodiscard]] Sums of(std::size_t wi) const {
+    const auto n = static_cast<Eigen::Index>(bvndf_.directions.size());
+    Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(facets_.rows(), n), fitted = Eigen::MatrixXd::Zero(lobes_.rows(), n);
+    for (Eigen::Index wo = 0; wo < n; ++wo) {
+      const auto to = static_cast<std::size_t>(wo);
+      if (bvndf_.visible_area[to] <= 0.0) continue;
+      for (Eigen::Index i = 0; i < exact.rows(); ++i)
+        exact(i, wo) = seen(bvndf_, cosines_, static_cast<std::size_t>(i), wi, to);
+      for (Eigen::Index j = 0; j < fitted.rows(); ++j)
+        fitted(j, wo) = mass_of(table_, static_cast<std::size_t>(j), wi, to);
     }
+    const double squares = exact.cwiseProduct(facets_ * exact).sum();
+    return {.squares = squares,
+            .differences =
+                squares - 2.0 * exact.cwiseProduct(mixed_ * fitted).sum() + fitted.cwiseProduct(lobes_ * fitted).sum()};
+  }
+
+ private:
+  static Eigen::MatrixXd products(const std::vector<SphericalGaussian>& a, const std::vector<SphericalGaussian>& b) {
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      for (Eigen::Index j = 0; j < all.cols(); ++j) {
+        const SphericalGaussian &one = a[static_cast<std::size_t>(i)], &other = b[static_cast<std::size_t>(j)];
+        all(i, j) = convolution(one, other) / (vmf_integral(one.sharpness) * vmf_integral(other.sharpness));
+      }
+    }
+    return all;
+  }
+
+  const Bvndf& bvndf_;
+  const Amplitudes& table_;
+  Cosines cosines_;
+  Eigen::MatrixXd facets_, mixed_, lobes_;
+};
+
+// What fits are measured on: the patch as of one colour.
+struct Fitted {
+  Bvndf bvndf;
+  MaterialTable table;
+
+  Fitted(Patch patch, TableSettings settings) {
+    settings.channels = 1;
+    settings.paints.assign(1, {});
+    patch.paints.clear();
+    bvndf = patch_bvndf(patch, settings, no_progress);
+    table = patch_table(patch, settings, no_progress);
+  }
+
+  // The sum of `sums_of(wi)` over all directions.
+  template <class SumsOf>
+  [[nodiscard]] Sums total(const SumsOf& sums_of) const {
+    std::vector<Sums> rows(bvndf.directions.size());
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t wi) { rows[wi] = sums_of(wi); });
+    Sums sum;
+    for (const Sums& row : rows) sum.add(row, 1.0);
+    return sum;
+  }
+};
+
+// Means over all cells and pairs.
+Sums mean_squares(const Patch& patch, const TableSettings& settings) {
+  const Fitted fitted(patch, settings);
+  const PairSums pair_sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines);
+  const std::size_t n = fitted.bvndf.directions.size();
+  const Sums sum = fitted.total([&](std::size_t wi) {
+    Sums row;
+    for (std::size_t wo = 0; wo < n; ++wo) row.add(pair_sums.of(wi, wo), 1.0);
+    return row;
   });
   Sums mean;
-  const double count = 6.0 * cube_side * cube_side * static_cast<double>(n * n);
-  for (const Sums& row : rows) {
-    mean.squares += row.squares / count;
-    mean.differences += row.differences / count;
-  }
+  mean.add(sum, 1.0 / (6.0 * cube_side * cube_side * static_cast<double>(n * n)));
   return mean;
 }
 
@@ -223,6 +304,18 @@ double jakob_convolution_error(double sharpness1, double sharpness2) {
 
 double fit_rms(const Patch& patch, const TableSettings& settings) {
   return std::sqrt(mean_squares(patch, settings).differences);
+}
+
+double occupied_fit_rms(const Patch& patch, const TableSettings& settings) {
+  const Sums mean = mean_squares(patch, settings);
+  return std::sqrt(mean.occupied / mean.cells);
+}
+
+double convolved_fit_rms(const Patch& patch, const TableSettings& settings, double sharpness) {
+  const Fitted fitted(patch, settings);
+  const ConvolvedSums sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines, sharpness);
+  const Sums sum = fitted.total([&](std::size_t wi) { return sums.of(wi); });
+  return std::sqrt(std::max(sum.differences, 0.0) / sum.squares);
 }
 
 double relative_fit_rms(const Patch& patch, const TableSettings& settings) {

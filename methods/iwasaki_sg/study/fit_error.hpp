@@ -25,4 +25,11 @@ namespace footprint::iwasaki_sg {
 /// single normals that they represent.
 [[nodiscard]] double relative_fit_rms(const Patch& patch, const TableSettings& settings);
 
+/// The same difference over cells that contain facets alone, as a mean over those cells and all pairs.
+[[nodiscard]] double occupied_fit_rms(const Patch& patch, const TableSettings& settings);
+
+/// relative_fit_rms of both sides after a convolution with a lobe of `sharpness` (above 0), over the whole sphere: what
+/// a base BRDF of that sharpness shows of the difference. In closed form, by the products of lobes.
+[[nodiscard]] double convolved_fit_rms(const Patch& patch, const TableSettings& settings, double sharpness);
+
 }  // namespace footprint::iwasaki_sg

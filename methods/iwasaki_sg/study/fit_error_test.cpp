@@ -68,5 +68,25 @@ TEST(FitError, FewerLobesThanNormalsLeaveMore) {
               1e-3);
 }
 
+// Wider lobes hide more of the difference. Between the sharpest and themselves, lobes differ as they are.
+TEST(FitError, AConvolutionHidesWhatIsFinerThanItsLobe) {
+  const Patch pyramids = make_patch(find_patch_kind("pyramids"), {{"floor", "0"}});
+  TableSettings settings = small();
+  settings.lobes = 4;
+  EXPECT_LT(convolved_fit_rms(pyramids, settings, 513.0), 0.01);
+  settings.lobes = 1;
+  const double sharp = convolved_fit_rms(pyramids, settings, 1e5), wide = convolved_fit_rms(pyramids, settings, 2.0);
+  EXPECT_NEAR(sharp / relative_fit_rms(pyramids, settings), 1.0, 0.1);
+  EXPECT_LT(wide, 0.5 * sharp);
+}
+
+// Cells without facets add only what lobes put there, and are most of all cells.
+TEST(FitError, OccupiedCellsAreTheFewWithFacets) {
+  const Patch pyramids = make_patch(find_patch_kind("pyramids"), {{"floor", "0"}});
+  TableSettings settings = small();
+  settings.lobes = 1;
+  EXPECT_GT(occupied_fit_rms(pyramids, settings), 5.0 * fit_rms(pyramids, settings));
+}
+
 }  // namespace
 }  // namespace footprint::iwasaki_sg

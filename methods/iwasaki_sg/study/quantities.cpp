@@ -59,6 +59,16 @@ double measured_relative_fit_rms(const Material& material, const Options& option
   return relative_fit_rms(it.patch(), it.settings);
 }
 
+double measured_occupied_fit_rms(const Material& material, const Options& options, const Options& /*parameters*/) {
+  const Measured it = measured(material, options);
+  return occupied_fit_rms(it.patch(), it.settings);
+}
+
+double measured_convolved_fit_rms(const Material& material, const Options& options, const Options& parameters) {
+  const Measured it = measured(material, options);
+  return convolved_fit_rms(it.patch(), it.settings, parameters.number("sharpness"));
+}
+
 // Milliseconds of one stage of the patch's table, measured once.
 double stage_ms(const Material& material, const Options& options, std::string_view stage) {
   const Measured it = measured(material, options);
@@ -119,6 +129,11 @@ std::vector<Quantity> lobe_quantities() {
            {},
            measured_fit_rms},
           {"relative_fit_rms", "The same over the root mean square of the BVNDF.", {}, measured_relative_fit_rms},
+          {"occupied_fit_rms", "fit_rms over the cells of normals that contain facets.", {}, measured_occupied_fit_rms},
+          {"convolved_fit_rms",
+           "relative_fit_rms over the sphere after a convolution of both sides with a lobe.",
+           {number_option("sharpness", 513.0, 1e-3, 1e5, "Sharpness of that lobe.")},
+           measured_convolved_fit_rms},
           {"jakob_convolution_error",
            "The same of Jakob's (2012) one spherical Gaussian.",
            {sharpness("eta1"), sharpness("eta2")},
@@ -143,7 +158,7 @@ std::vector<Quantity> stage_quantities() {
 
 std::vector<Quantity> brdf_quantities() {
   const OptionSpec side =
-      whole_option("side", 12, 2, 48, "Side of the table's grids of directions; its time grows as the fourth power.");
+      whole_option("side", 12, 2, 96, "Side of the table's grids of directions; its time grows as the fourth power.");
   return {{"brdf_error",
            "Root mean square difference of the effective BRDF from the sum over facets, for random pairs of "
            "directions, over the root mean square of the sum.",

@@ -19,12 +19,22 @@ WITH_CONSTANTS = ("methods", "renderer", "experiments", "scenes", "scripts")
 
 def write_grey(file, side, value):
     """A grey PNG of one value."""
+    write_rows(file, side, (b"\0" + bytes([value]) * 3 * side) * side)
+
+
+def write_rows(file, side, rows):
+    """A PNG of 8-bit RGB rows, each after its filter byte."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    rows = (b"\0" + bytes([value]) * 3 * side) * side
     file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)) +
                      chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def write_stripes(file, side, values):
+    """A grey PNG of columns with the given values in turn."""
+    row = b"\0" + b"".join(bytes([values[x % len(values)]]) * 3 for x in range(side))
+    write_rows(file, side, row * side)
 
 
 def held_out_uses(files, recorded):
@@ -135,6 +145,24 @@ class RealMaps(unittest.TestCase):
         # Nine weights describe the eight errors that they were fitted on.
         self.assertLess(own["median_factor"], 1.2)
         self.assertGreater(own["order_right"], 0.8)
+
+    def test_parts_of_roughness_stay_within_their_aim(self):
+        """At most 0.6 of the error of tan_gmm over three small maps with gloss maps; a twin without those parts must fail."""
+        for surface in ("bumps", "scales", "v_grooves"):
+            self.surface(surface, f"{surface}_Normal.png")
+            write_stripes(self.tree / f"{surface}_gloss.png", 64, (230, 230, 60))
+        self.assertEqual(self.collect().returncode, 0)
+        scenes = sorted(str(scene.parent.relative_to(self.out)) for scene in self.out.glob("*/*_gloss/scene.toml"))
+        self.assertEqual(len(scenes), 3)
+        for roughness, code in (("joint", 0), ("separate", 1)):
+            method = f"cells:k=4:roughness={roughness}"
+            text = (f'[experiment]\ntitle = "aim"\nmethods = ["direct", "tan_gmm:n=4", "{method}"]\nrepeats = 1\n'
+                    f'[matrix]\nscene = {json.dumps(scenes)}\n[reference]\nspp = 64\nsupersampling = [1]\n[threshold]\n')
+            text += f'"error({method}) - 0.6 * error(tan_gmm:n=4)" = 0\n'
+            (self.out / f"{roughness}.toml").write_text(text)
+            done = subprocess.run([PROGRAM, "check", self.out / f"{roughness}.toml", "-o", self.folder / roughness],
+                                  capture_output=True, text=True, check=False, env=os.environ)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
 
     def test_a_tree_without_maps_is_an_error(self):
         done = self.collect()

@@ -167,17 +167,29 @@ std::string trust_of(const QuickCalibration& own) {
       100.0 * own.choice_right);
 }
 
+// Whether each filter has its weights and its calibration, and there is one.
+bool is_whole(const QuickModel& model) {
+  const std::size_t weights = model.texels_per_pixel.size() + 1 + std::tuple_size_v<LobeErrors>;
+  for (const QuickMethod& method : model.methods) {
+    const auto is_known = [&](const QuickFilter& filter) {
+      return filter.weights.size() == weights &&
+             by_footprint(model.calibration, filter.footprint) != model.calibration.end();
+    };
+    if (method.filters.empty() || !std::ranges::all_of(method.filters, is_known)) return false;
+  }
+  return !model.methods.empty();
+}
+
 }  // namespace
 
 QuickModel read_quick_model(const std::filesystem::path& file) {
+  const auto json = nlohmann::ordered_json::parse(std::ifstream(file), nullptr, false);
   try {
-    const auto json = nlohmann::ordered_json::parse(std::ifstream(file));
-    if (json.at("schema") != "footprint-quick-model/1")
-      throw Error(ErrorKind::machine, file.string(), "is not a footprint-quick-model/1");
-    return from_json_value<QuickModel>(json);
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorKind::machine, file.string(), error.what(), "install the program again");
+    QuickModel model = from_json_value<QuickModel>(json);
+    if (json.at("schema") == "footprint-quick-model/1" && is_whole(model)) return model;
+  } catch (const nlohmann::json::exception&) {  // as of a model that is not whole
   }
+  throw Error(ErrorKind::machine, file.string(), "is not a whole footprint-quick-model/1", "install the program again");
 }
 
 double quick_prediction(const std::vector<double>& weights, std::size_t level, const std::vector<double>& log_inputs) {

@@ -1,10 +1,14 @@
 // The model's sum, the choice that follows, and what the model of this build has.
 #include "experiments/studies/quick_advice.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -111,6 +115,35 @@ TEST(QuickAdvice, RefusesWhatItCannotAnswer) {
   plain.materials.erase(plain.materials.begin());
   EXPECT_THROW((void)quick_advice(plain, small_model(), among("direct")), Error);
   EXPECT_THROW((void)read_quick_model("/nowhere/quick_model.json"), Error);
+}
+
+TEST(QuickAdvice, RefusesADamagedModel) {
+  const auto whole = std::filesystem::path(FOOTPRINT_SOURCE_FOLDER) / "results/quick_model.json";
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("quick_model_{}.json", getpid());
+  const auto is_refused = [&](const nlohmann::json& damaged) {
+    std::ofstream(file) << damaged.dump();
+    try {
+      (void)read_quick_model(file);
+    } catch (const Error& error) {
+      return std::string(error.what()).find(file.string()) != std::string::npos;
+    }
+    return false;
+  };
+  const auto model = nlohmann::json::parse(std::ifstream(whole));
+  EXPECT_FALSE(is_refused(model));
+  auto damaged = model;
+  damaged["methods"][3]["filters"][0]["weights"].erase(0);
+  EXPECT_TRUE(is_refused(damaged));
+  damaged = model;
+  damaged["calibration"].erase(0);
+  EXPECT_TRUE(is_refused(damaged));
+  damaged = model;
+  damaged["methods"] = nlohmann::json::array();
+  EXPECT_TRUE(is_refused(damaged));
+  damaged["schema"] = "another/1";
+  EXPECT_TRUE(is_refused(damaged));
+  EXPECT_TRUE(is_refused("text"));
+  std::filesystem::remove(file);
 }
 
 TEST(QuickAdvice, WritesJson) {

@@ -2,7 +2,6 @@
 #include "methods/cells/halves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

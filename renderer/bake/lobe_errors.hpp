@@ -8,10 +8,8 @@
 
 namespace footprint {
 
-/// The four lobes that stand for a footprint, from one texel's own to one with the slopes' covariance (LEAN).
-enum class SimpleLobe { texel, mean_normal, round, elliptical };
-
-/// Errors by SimpleLobe: root mean squares of the difference, over the mean of the exact values.
+/// Of one texel's own lobe, one about the mean normal, one that the variance widens, and one that the slopes'
+/// covariance widens (LEAN): root mean squares of the difference, over the mean of the exact values.
 using LobeErrors = std::array<double, 4>;
 
 /// The errors over 1024 blocks of 2^level x 2^level texels, above level 5 fewer, at places from a fixed seed, for GGX

@@ -71,7 +71,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
           make_texture("fournier_mean", mean_normal_chain(material), settings.storage, normal_coordinates(material)));
     }
   }
-  append(out.textures, bake_lobe_variance(material, settings.storage, effects).textures);
+  append(out.textures, bake_lobe_variance(material, settings.storage, effects, roughness_mean(options)).textures);
   return out;
 }
 
@@ -93,7 +93,7 @@ const Method& fournier_method() {
                            "heaviest of its own normals, each with those nearest to it."),
                        whole_option("evaluations", fournier::most_evaluations, 1, fournier::most_evaluations,
                                     "Evaluations of its error after which the fit of a texel stops."),
-                       float_storage_option()},
+                       float_storage_option(), roughness_mean_option()},
            .honours = map_effects_but({Effect::normal_layers}),
            .slow_precompute = true,
            .bakes_by_texel = true},

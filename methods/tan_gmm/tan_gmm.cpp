@@ -37,6 +37,7 @@ std::vector<OptionSpec> option_table() {
                   "texel's mixture; from clusters alone, as in the paper."),
       number_option("c", 1.0, 0.0, 1e6, "Weight of the prior that aligns the means, in samples; the paper's is 1."),
       word_option("storage", {"fp32", "fp16"}, "How the mixtures are stored: 32-bit or 16-bit floats."),
+      roughness_mean_option(),
       word_option("lobe", {"base", "gaussian"},
                   "What a component reflects with: the scene's base lobe, widened by the component's spread, or the "
                   "paper's Gaussian over the disc, which the base lobe enters by its variance alone."),
@@ -94,7 +95,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
     const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
     out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
   }
-  append(out.textures, bake_lobe_variance(material, storage, effects).textures);
+  append(out.textures, bake_lobe_variance(material, storage, effects, roughness_mean(options)).textures);
   return out;
 }
 

@@ -15,7 +15,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
                        const Progress& /*progress*/) {
   const Storage storage = parse_storage(options.word("storage"));
   Prefiltered out = bake_mean_normal(material, storage, effects);
-  append(out.textures, bake_lobe_variance(material, storage, effects).textures);
+  append(out.textures, bake_lobe_variance(material, storage, effects, roughness_mean(options)).textures);
   return out;
 }
 
@@ -27,7 +27,7 @@ const Method& toksvig_method() {
           {.name = "toksvig",
            .summary = "One lobe about the mean normal, widened according to the length of the mean normal.",
            .paper = "Toksvig 2005, Mipmapping Normal Maps, Journal of Graphics Tools 10(3)",
-           .options = {storage_option(),
+           .options = {storage_option(), roughness_mean_option(),
                        number_option(
                            "spread", 1.0, 0.0, 4.0,
                            "Factor on the spread (1 - |Na|) / |Na| before it is added to the lobe's slope variance per "

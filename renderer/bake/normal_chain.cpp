@@ -68,13 +68,24 @@ Image lobe_variance_map(const Material& material) {
 
 std::vector<Image> lobe_variance_chain(const Material& material) { return mip_chain(lobe_variance_map(material)); }
 
-Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects) {
+OptionSpec roughness_mean_option() {
+  return word_option("roughness_mean", {"variance", "concentration"},
+                     "What the roughness of a footprint is the mean of: slope variance, or its reciprocal, which keeps "
+                     "the highlight's peak.");
+}
+
+RoughnessMean roughness_mean(const Options& options) {
+  return options.word("roughness_mean") == "concentration" ? RoughnessMean::concentration : RoughnessMean::variance;
+}
+
+Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects,
+                               RoughnessMean mean) {
   Prefiltered out;
   if (!has(effects, Effect::roughness_variation)) return out;
-  std::vector<Image> chain = lobe_variance_chain(material);
-  for (Image& level : chain)
-    std::ranges::transform(level.texels, level.texels.begin(), [](float v) { return v / stored_lobe_variance; });
-  out.textures.push_back(make_texture("lobe_variance", std::move(chain),
+  Image finest = lobe_variance_map(material);
+  for (float& v : finest.texels)
+    v = mean == RoughnessMean::concentration ? stored_lobe_variance / v : v / stored_lobe_variance;
+  out.textures.push_back(make_texture("lobe_variance", mip_chain(finest),
                                       storage == Storage::unorm8 ? Storage::fp16 : storage,
                                       roughness_coordinates(material)));
   return out;

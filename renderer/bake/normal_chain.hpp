@@ -32,11 +32,22 @@ namespace footprint {
 /// The mip chain of lobe_variance_map. Variances of independent spreads add.
 [[nodiscard]] std::vector<Image> lobe_variance_chain(const Material& material);
 
-/// The texture `lobe_variance` of lobe_variance.glsl, from that chain; none if the roughness does not vary. Values are
-/// variances in units of stored_lobe_variance, so that texels blend correctly, and half floats represent the range from
-/// a mirror's 1e-6 to 1000 for an exponent of 0.001. `unorm8` also uses half floats, because bytes would round every
-/// lobe below 1/255 to a mirror.
-[[nodiscard]] Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects);
+/// What the roughness of a footprint is the mean of.
+enum class RoughnessMean {
+  variance,      ///< slope variance: keeps the second moment of the lobes
+  concentration  ///< 1 / variance: keeps the peak of the lobes about one normal
+};
+
+/// `roughness_mean=variance|concentration`.
+[[nodiscard]] OptionSpec roughness_mean_option();
+[[nodiscard]] RoughnessMean roughness_mean(const Options& options);
+
+/// The texture `lobe_variance` of lobe_variance.glsl; none if the roughness does not vary. Values are
+/// variances in units of stored_lobe_variance, or the reciprocals of that, so that texels blend correctly, and half
+/// floats represent the range from a mirror's 1e-6 to 1000 for an exponent of 0.001. `unorm8` also uses half floats,
+/// because bytes would round every lobe below 1/255 to a mirror.
+[[nodiscard]] Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects,
+                                             RoughnessMean mean = RoughnessMean::variance);
 
 /// The unit of variances in that texture: a power of two, so that scaling does not round.
 inline constexpr float stored_lobe_variance = 1.0F / 64.0F;

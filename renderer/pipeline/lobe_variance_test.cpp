@@ -32,9 +32,9 @@ Material two_lobe_material(float s, float t) {
 }
 
 // What baseVariance finds at u for a footprint of no size.
-double variance_at(const Material& material, Storage storage, float u) {
+double variance_at(const Material& material, Storage storage, float u, RoughnessMean mean = RoughnessMean::variance) {
   const gl::Context& context = shared_context();
-  const Prefiltered baked = bake_lobe_variance(material, storage, varying_roughness());
+  const Prefiltered baked = bake_lobe_variance(material, storage, varying_roughness(), mean);
   const GpuTexture texture = upload(baked.textures.at(0));
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
@@ -42,7 +42,9 @@ double variance_at(const Material& material, Storage storage, float u) {
   ShaderVariant variant;
   variant.brdf = material.brdf;
   variant.effects = varying_roughness();
-  const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"), baked);
+  const OptionSpec option = roughness_mean_option();
+  const std::string word = mean == RoughnessMean::concentration ? "concentration" : "variance";
+  const ShaderFlags flags = shader_flags(variant, Options({option}, {{option.name, word}}, "test"), baked);
   const std::string text = "layout(binding = 0) uniform sampler2D lobe_variance;\nvec4 lobe_cutoff;\n" +
                            shared_functions(flags, {"test.glsl", "//? include lobe_variance.glsl\n"});
   const std::array<std::array<glm::vec4, 3>, 1> inputs{{{glm::vec4(u), glm::vec4(0), glm::vec4(0)}}};
@@ -64,10 +66,22 @@ TEST(LobeVariance, BlendsAsVariancesDo) {
   }
 }
 
+// The mean of concentrations is that of exponents: the peaks of the two lobes about one normal average to its own.
+TEST(LobeVariance, BlendsAsConcentrationsDo) {
+  const Material material = two_lobe_material(10.0F, 1000.0F);
+  for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
+    EXPECT_NEAR(variance_at(material, storage, 0.5F, RoughnessMean::concentration) * 505.0, 1.0, 5e-3);
+    EXPECT_NEAR(variance_at(material, storage, 0.375F, RoughnessMean::concentration) * (0.75 * 10.0 + 0.25 * 1000.0),
+                1.0, 5e-3);
+  }
+}
+
 TEST(LobeVariance, KeepsMirrorsInEveryStorage) {
   const Material material = two_lobe_material(1e6F, 5.0F);
-  for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8})
-    EXPECT_NEAR(variance_at(material, storage, 0.25F) * 1e6, 1.0, 2e-3) << storage_name(storage);
+  for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
+    for (const RoughnessMean mean : {RoughnessMean::variance, RoughnessMean::concentration})
+      EXPECT_NEAR(variance_at(material, storage, 0.25F, mean) * 1e6, 1.0, 2e-3) << storage_name(storage);
+  }
 }
 
 // The widest lobes that a map may store: a bound on variances would make an exponent of 1 of all below it.
@@ -76,6 +90,8 @@ TEST(LobeVariance, KeepsNearlyEvenLobesInEveryStorage) {
   for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
     EXPECT_NEAR(variance_at(material, storage, 0.25F) * 1e-3, 1.0, 2e-3) << storage_name(storage);
     EXPECT_NEAR(variance_at(material, storage, 0.75F) * 0.125, 1.0, 2e-3) << storage_name(storage);
+    EXPECT_NEAR(variance_at(material, storage, 0.25F, RoughnessMean::concentration) * 1e-3, 1.0, 5e-3)
+        << storage_name(storage);
   }
 }
 

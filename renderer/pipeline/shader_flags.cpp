@@ -30,10 +30,14 @@ bool is_filter(const Variant& v) {
   return v.sampling == Sampling::frame && v.footprint.kind == kind;
 }
 
+bool draws_texels(const Variant& v) { return v.sampling == Sampling::frame && is_stochastic(v.footprint); }
+
+// Whether parts of the footprint are filtered and shaded separately.
+bool shades_parts(const Variant& v) { return is_filter<FootprintFilterKind::shaded>(v) || draws_texels(v); }
+
 // Whether a fetch averages lookups whose number the compiler does not know.
 bool averages_probes(const Variant& v) {
-  return v.sampling == Sampling::frame && v.footprint.kind != FootprintFilterKind::trilinear &&
-         v.footprint.kind != FootprintFilterKind::shaded;
+  return v.sampling == Sampling::frame && v.footprint.kind != FootprintFilterKind::trilinear && !shades_parts(v);
 }
 
 bool samples_environment(const Variant& v) {
@@ -49,7 +53,7 @@ bool reflects_diffusely(const Variant& v) {
 bool draws(const Variant& v) {
   const bool directions = samples_environment(v) && v.environment == EnvironmentUse::sampled;
   const bool facets = has(v.effects, Effect::microgeometry_visibility) && v.sampling != Sampling::frame;
-  return v.sampling == Sampling::texel || directions || facets;
+  return v.sampling == Sampling::texel || directions || facets || draws_texels(v);
 }
 
 struct FlagRow {
@@ -77,7 +81,12 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"filter_ewa", is_filter<FootprintFilterKind::ewa>},
     {"filter_hardware", is_filter<FootprintFilterKind::hardware>},
     {"filter_shaded", is_filter<FootprintFilterKind::shaded>},
+    {"filter_parts", shades_parts},
+    {"filter_stochastic", draws_texels},
+    {"filter_stochastic_gaussian", is_filter<FootprintFilterKind::stochastic_gaussian>},
+    {"filter_stochastic_trilinear", is_filter<FootprintFilterKind::stochastic_trilinear>},
     {"several_probes", averages_probes},
+    {"roughness_mean_concentration", [](const Variant&) { return false; }},  // of methods without that option
     {"counting", [](const Variant& v) { return v.counting != Counting::none; }},
     {"counting_trips", [](const Variant& v) { return v.counting == Counting::trips; }},
     {"fixed_trips", [](const Variant& v) { return v.fixed_trips.has_value(); }},
@@ -116,7 +125,7 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
                                                      [](const auto& t) { return t.filter == TextureFilter::nearest; }));
   for (const OptionSpec& option : options.specs()) {
     for (const std::string& choice : option.choices)
-      flags.emplace(option.shader_name() + "_" + choice, options.word(option.name) == choice);
+      flags.insert_or_assign(option.shader_name() + "_" + choice, options.word(option.name) == choice);
   }
   return flags;
 }

@@ -2,7 +2,14 @@
 // varies.
 //? if roughness_variation
 const float stored_lobe_variance = 1.0 / 64.0;  // its unit
-float baseVariance(Footprints f) { return fetch(lobe_variance, f.roughness).r * stored_lobe_variance; }
+
+float baseVariance(Footprints f) {
+//? if roughness_mean_concentration
+  return stored_lobe_variance / max(fetch(lobe_variance, f.roughness).r, 1e-6);
+//? else
+  return fetch(lobe_variance, f.roughness).r * stored_lobe_variance;
+//? end
+}
 //? else
 float baseVariance(Footprints f) { return lobeVariance(lobe_cutoff.x); }
 //? end

@@ -155,6 +155,7 @@ void run_bake(const BakeArguments& arguments) {
         lower_extension(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
     const Scene scene =
         slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library, run.overrides);
+    require_one_lookup(footprint_filter_of(run, scene), "bake");
     const EffectSet effects = effects_on(derive_effects(scene));
     BakedMethod baked = bake_settings(run, scene, effects, display.callback());
     if (slopes) take_slopes(*slopes, baked);

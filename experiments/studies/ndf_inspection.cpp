@@ -156,7 +156,11 @@ constexpr double part_in_pictures = 1.0 / 16.0;
 // Sufficient for the part below the horizon.
 constexpr double part_in_energy = 1.0 / 8.0;
 
-FootprintFilter filter_of(const RunSettings& run) { return run.footprint.value_or(default_footprint_filter); }
+FootprintFilter filter_of(const RunSettings& run) {
+  const FootprintFilter filter = run.footprint.value_or(default_footprint_filter);
+  require_one_lookup(filter, "NDFs");
+  return filter;
+}
 
 // The directions, and the exact densities there.
 struct Grid {

@@ -216,14 +216,19 @@ SceneInfo Stage::info(const Exposure& exposure) const {
   return info;
 }
 
-View Stage::view(double distance) const { return {.size = size_, .camera = camera_at_distance(scene(), distance)}; }
+View Stage::view(double distance) const {
+  return {.size = size_, .camera = camera_at_distance(scene(), distance), .seed = settings_.reference.seed};
+}
 
 View Stage::move_to(const RunView& view) {
   if (settings_.path.kind == AnimationPath::light) {
     prepared_->scene.lights = lights_on_path(settings_.path, scene(), lights_, view);
     prepared_->gpu->update(scene());
   }
-  return {.size = size_, .camera = camera_on_path(settings_.path, scene(), view)};
+  return {.size = size_,
+          .camera = camera_on_path(settings_.path, scene(), view),
+          .seed = settings_.reference.seed,
+          .frame = view.frame};
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {

@@ -117,8 +117,12 @@ std::vector<double> run_distances(const ViewSettings& view, const Scene& scene) 
 std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) {
   require_settings_of_its_own(settings);
   std::vector<RunView> views;
+  const auto add = [&](double distance, double degrees) {
+    const auto frame = static_cast<std::uint32_t>(is_animation(settings) ? views.size() : 0);
+    views.push_back({.distance = distance, .degrees = degrees, .frame = frame});
+  };
   if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {
-    for (const double distance : run_distances(settings.view, scene)) views.push_back({.distance = distance});
+    for (const double distance : run_distances(settings.view, scene)) add(distance, 0.0);
     return views;
   }
   if (settings.path.kind == AnimationPath::light && scene.lights.empty())
@@ -127,7 +131,7 @@ std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) 
   const int count = settings.view.zoom.frames;
   const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
   const double turn = settings.path.degrees.value_or(default_turn);
-  for (int i = 0; i < count; ++i) views.push_back({.distance = distance, .degrees = turn * i / (count - 1)});
+  for (int i = 0; i < count; ++i) add(distance, turn * i / (count - 1));
   return views;
 }
 

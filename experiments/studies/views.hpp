@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ namespace footprint {
 
 /// One view of the scene.
 struct RunView {
-  double distance = 1;  ///< factor on the camera's distance
-  double degrees = 0;   ///< that camera or lights have turned by since the first view
+  double distance = 1;      ///< factor on the camera's distance
+  double degrees = 0;       ///< that camera or lights have turned by since the first view
+  std::uint32_t frame = 0;  ///< number in an animation
 
   friend auto operator<=>(const RunView&, const RunView&) = default;
 };

@@ -190,6 +190,10 @@ ProbeSet probes_of(const FootprintFilter& filter, const TexelFootprint& footprin
       return texels_by_area(footprint, filter.count);
     case Kind::ewa:
       return along_the_ellipse(footprint, filter.count);
+    case Kind::stochastic:
+    case Kind::stochastic_gaussian:
+    case Kind::stochastic_trilinear:
+      require_one_lookup(filter, "the lookups of a footprint");
   }
   throw std::logic_error("not a footprint filter");
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/pipeline/sample_sequence.hpp"
+
 namespace footprint {
 namespace {
 
@@ -33,6 +35,7 @@ FrameRenderer::FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, co
                              const glm::ivec2& size, const ProgramSettings& settings, int tile_edge)
     : scene_(&scene),
       method_(&method),
+      footprint_(settings.footprint),
       program_(scene, method.baked(), settings),
       tiles_(tiles_of(size, edge_of(context, tile_edge))),
       target_(tiles_.front().size.x, tiles_.front().size.y, radiance_format, true) {}
@@ -41,7 +44,12 @@ void FrameRenderer::draw_tile(const View& view, const Tile& tile, const glm::dve
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer());
   gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
   clear_target();
-  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, offset));
+  const auto draws = static_cast<std::uint32_t>(footprint_.count);
+  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, offset),
+                {.origin = tile.origin,
+                 .seed = half_seed(view.seed, 0),
+                 .first = view.frame * draws,
+                 .draws = is_stochastic(footprint_) ? footprint_.count : 1});
 }
 
 void FrameRenderer::draw(const View& view, const glm::dvec2& offset) const {

@@ -37,6 +37,7 @@ class FrameRenderer {
 
   GpuScene* scene_;
   const GpuMethod* method_;
+  FootprintFilter footprint_;
   SurfaceProgram program_;
   std::vector<Tile> tiles_;
   gl::RenderTarget target_;

@@ -109,10 +109,12 @@ void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t 
   text.include("surface_material.glsl");
 }
 
-// The most calls of a module's `shade` per pixel: once per light and part of a `shaded` footprint.
+// The most calls of a module's `shade` per pixel: once per light and part of a footprint.
 int shade_calls(const ShaderVariant& v) {
   const std::size_t lights = v.point_lights + v.spot_lights + v.directional_lights + v.environment_suns;
-  const int parts = v.footprint.kind == FootprintFilterKind::shaded ? v.footprint.count * v.footprint.count : 1;
+  const int count = v.footprint.count;
+  const bool tiles = v.footprint.kind == FootprintFilterKind::shaded;
+  const int parts = tiles ? count * count : is_stochastic(v.footprint) ? count : 1;
   return parts * static_cast<int>(std::max<std::size_t>(lights, 1));
 }
 
@@ -147,7 +149,9 @@ constexpr std::array<GLenum, 5> sampler_types{GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY
 
 // The number of parts is a uniform, because compilers take seconds to unroll loops of a constant count.
 std::string footprint_constants(const FootprintFilter& filter) {
-  return fmt::format("const int most_probes = {0};\nuniform int footprint_parts = {0};\n", filter.count);
+  return fmt::format(
+      "const int most_probes = {0};\nuniform int footprint_parts = {0};\nconst int footprint_depth = {1};\n",
+      filter.count, filter.depth);
 }
 
 std::string shared_functions(const ShaderFlags& flags, const ShaderModule& module) {

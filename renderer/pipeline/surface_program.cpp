@@ -142,6 +142,17 @@ void take(std::span<const GpuTexture> from, Prefiltered& into) {
   }
 }
 
+// The numbers in the sequences of the points of a pixel: one per cell of the grid, or per draw of a frame.
+std::vector<std::uint32_t> points_of(const SampleDraw& samples) {
+  std::vector<std::uint32_t> points;
+  for (int i = 0; i < samples.draws; ++i) {
+    for (int cell = 0; cell < samples.grid * samples.grid; ++cell)
+      points.push_back(samples.first + static_cast<std::uint32_t>(i) +
+                       sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid}));
+  }
+  return points;
+}
+
 }  // namespace
 
 SamplerState frame_sampler_state(const FootprintFilter& filter, const gl::ContextInfo& context) {
@@ -281,14 +292,16 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
 }
 
 void SurfaceProgram::set_samples(const SampleDraw& samples) const {
-  const auto cells = static_cast<std::size_t>(samples.grid) * static_cast<std::size_t>(samples.grid);
-  std::vector<glm::uvec2> texels(cells);
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const auto at = static_cast<int>(cell);
-    const SampleDigits point = sample_digits(
-        SamplePair::texel, samples.first + sample_in_cell(samples.grid, {at % samples.grid, at / samples.grid}));
-    texels[cell] = {point.x, point.y};
-  }
+  const std::vector<std::uint32_t> points = points_of(samples);
+  const auto count = static_cast<GLsizei>(points.size());
+  const auto digits = [&](SamplePair pair) {
+    std::vector<glm::uvec2> all;
+    for (const std::uint32_t point : points) {
+      const SampleDigits of_point = sample_digits(pair, point);
+      all.emplace_back(of_point.x, of_point.y);
+    }
+    return all;
+  };
   const GLuint name = program_.name();
   const auto set = [&](const char* uniform, auto call) {
     const GLint location = program_.uniform(uniform);
@@ -297,9 +310,12 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) const {
   set("sample_origin", [&](GLint l) { gl::api().ProgramUniform2i(name, l, samples.origin.x, samples.origin.y); });
   set("sample_grid", [&](GLint l) { gl::api().ProgramUniform1i(name, l, samples.grid); });
   set("sample_seed", [&](GLint l) { gl::api().ProgramUniform1ui(name, l, samples.seed); });
-  set("sample_texels", [&](GLint l) {
-    gl::api().ProgramUniform2uiv(name, l, static_cast<GLsizei>(cells), glm::value_ptr(texels.front()));
-  });
+  const auto set_pair = [&](const char* uniform, SamplePair pair) {
+    set(uniform, [&](GLint l) { gl::api().ProgramUniform2uiv(name, l, count, glm::value_ptr(digits(pair).front())); });
+  };
+  set_pair("sample_texels", SamplePair::texel);
+  set_pair("draw_places", SamplePair::pixel);
+  set_pair("draw_levels", SamplePair::choice);
   if (program_.uniform("directions_per_sample") >= 0) set_directions(samples);
 }
 
@@ -348,7 +364,7 @@ glm::vec3 SurfaceProgram::drawn_texels(const GpuMethod& method, const GpuBatch& 
 void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
                           const SampleDraw& samples) const {
   const bool environment_light = has(variant_.effects, Effect::environment_light);
-  if (variant_.sampling != Sampling::frame) set_samples(samples);
+  if (variant_.sampling != Sampling::frame || is_stochastic(variant_.footprint)) set_samples(samples);
   gl::api().UseProgram(program_.name());
   gl::api().UniformMatrix4fv(program_.uniform("world_to_clip"), 1, GL_FALSE, glm::value_ptr(world_to_clip));
   const glm::vec3 camera = variant_.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);

@@ -102,6 +102,7 @@ struct SampleDraw {
   int grid = 1;             ///< samples along a pixel's edge, 1 to 4
   std::uint32_t seed = 0;   ///< of the sequence, for this image
   std::uint32_t first = 0;  ///< the number in the sequence of a pixel's first sample
+  int draws = 1;            ///< per sample, of a stochastic footprint
   TexelUse texels = TexelUse::drawn;
 };
 
@@ -135,7 +136,7 @@ class SurfaceProgram {
   SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
 
   /// Draws the scene into the bound framebuffer. The viewport is the tile's, times the sample grid.
-  /// samples: ignored with Sampling::frame.
+  /// samples: ignored with Sampling::frame, unless its footprint is stochastic.
   void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
             const SampleDraw& samples = {}) const;
 

@@ -1,6 +1,7 @@
 // The matrices of an image's tiles, from camera and size.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace footprint {
 struct View {
   glm::ivec2 size{512, 512};
   Camera camera;
+  std::uint64_t seed = 0;   ///< of what stochastic footprints draw
+  std::uint32_t frame = 0;  ///< number of the frame in its sequence, which their draws continue
 };
 
 /// A rectangle of the image that is drawn at once; pixels, row 0 at the bottom as in a GL window.

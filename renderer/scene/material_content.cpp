@@ -165,8 +165,8 @@ class Counter {
   }
 
   void add(const FootprintFilter& filter) {
-    const auto& [kind, count] = filter;
-    add_all(kind, count);
+    const auto& [kind, count, depth] = filter;
+    add_all(kind, count, depth);
   }
 
   void add(const Scene& scene) {

@@ -47,55 +47,9 @@ struct HalfSteps {
 };
 //? end
 
-//? if filter_shaded
-// The footprint of part `i` of n x n.
-Footprint partOf(Footprint f, int i) {
-  vec2 at = (vec2(i % footprint_parts, i / footprint_parts) + 0.5) / float(footprint_parts) - 0.5;
-  return Footprint(f.uv + f.dx * at.x + f.dy * at.y, f.dx / float(footprint_parts), f.dy / float(footprint_parts));
-}
-
-Footprints partOf(Footprints f, int i) {
-  Footprints part;
-  part.normal = partOf(f.normal, i);
-//? if shared_coordinates
-  part.roughness = part.normal;
-  part.base_color = part.normal;
-//? if specular_variation
-  part.specular = part.normal;
+//? if screen_derivatives and filter_parts
+mat2 part_edges;  // of the part of the footprint that is shaded, in pixels
 //? end
-//? else
-  part.roughness = partOf(f.roughness, i);
-  part.base_color = partOf(f.base_color, i);
-//? if specular_variation
-  part.specular = partOf(f.specular, i);
-//? end
-//? end
-//? if surface_coordinates
-  part.surface = partOf(f.surface, i);
-//? end
-//? if normal_layers
-  part.layer = partOf(f.layer, i);
-//? end
-//? if clear_coat and coat_weight_variation
-  part.coat_weight = partOf(f.coat_weight, i);
-//? end
-//? if clear_coat and coat_width_variation
-  part.coat_width = partOf(f.coat_width, i);
-//? end
-//? if clear_coat and coat_normal_variation
-  part.coat_normal = partOf(f.coat_normal, i);
-//? end
-//? if material_index
-  part.share = partOf(f.share, i);
-//? end
-//? if screen_derivatives
-  part.frame_dx = f.frame_dx / float(footprint_parts);
-  part.frame_dy = f.frame_dy / float(footprint_parts);
-//? end
-  return part;
-}
-//? end
-
 //? if surface_coordinates or screen_derivatives
 // Rotates from the tangent frame of the shaded point to the axes of the camera: x right, y up, z towards the viewer.
 mat3 tangent_to_camera;

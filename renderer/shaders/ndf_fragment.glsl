@@ -8,6 +8,9 @@ uniform vec2 footprint_dx[3];
 uniform vec2 footprint_dy[3];
 
 //? module
+//? if filter_parts
+//? include footprint_parts.glsl
+//? end
 Footprint givenFootprint(int slot) { return Footprint(footprint_uv[slot], footprint_dx[slot], footprint_dy[slot]); }
 
 void main() {
@@ -26,7 +29,7 @@ void main() {
 //? end
 //? if filter_shaded
   density = 0.0;
-  int parts = footprint_parts * footprint_parts;
+  int parts = partCount();
   for (int i = 0; i < parts; ++i) density += ndf(effective(partOf(all, i)), h);
   density /= float(parts);
 //? else

@@ -30,9 +30,9 @@ vec3 halfVectorAt(Neighbour n, vec4 source) {
 HalfSteps halfSteps(vec3 wi, vec4 source, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   HalfSteps steps = HalfSteps(halfVectorAt(beside[0], source) - h, halfVectorAt(beside[1], source) - h);
-//? if filter_shaded
-  steps.dx /= float(footprint_parts);
-  steps.dy /= float(footprint_parts);
+//? if filter_parts
+  steps = HalfSteps(steps.dx * part_edges[0].x + steps.dy * part_edges[0].y,
+                    steps.dx * part_edges[1].x + steps.dy * part_edges[1].y);
 //? end
   return steps;
 }

@@ -85,6 +85,10 @@ vec3 seen_facet;  // of the pixel
 //? include neighbour_pixels.glsl
 
 //? end
+//? if filter_parts
+//? include footprint_parts.glsl
+//? end
+
 //? if clear_coat
 //? include clear_coat.glsl
 
@@ -133,7 +137,7 @@ vec3 reflected(SurfacePoint p, Incident light) {
 //? include environment_stack.glsl
 //? end
 
-//? if filter_shaded
+//? if filter_parts
 // Evaluates every light once per pixel, independent of the number of parts.
 Incident arriving[max(light_capacity, 1)];
 int arriving_count = 0;
@@ -173,7 +177,7 @@ vec3 environmentRadiance(SurfacePoint p) {
 //? end
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
-//? if filter_shaded
+//? if filter_parts
   for (int i = 0; i < arriving_count; ++i) radiance += reflected(p, arriving[i]);
 //? else
 //? if point_light
@@ -232,11 +236,11 @@ Surface surfaceUnder(Footprints f, vec3 base_color) {
 }
 
 //? if alpha_mask
-// The alpha test cuts out whole pixels, by the mean alpha over the pixel.
+// The alpha test cuts out whole pixels, by the mean alpha over the pixel, which is never drawn at random.
 float meanAlpha(Footprints f) {
 //? if filter_shaded
   float sum = 0.0;
-  int parts = probesHere(footprint_parts * footprint_parts);
+  int parts = probesHere(partCount());
   for (int i = 0; i < parts; ++i) sum += baseColor(partOf(f, i)).a;
   return sum / float(parts);
 //? else
@@ -265,10 +269,10 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 
 // The mean over the footprint of the pixel.
 vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
-//? if filter_shaded
+//? if filter_parts
   findLight(frame);
   vec3 sum = vec3(0.0);
-  int parts = probesHere(footprint_parts * footprint_parts);
+  int parts = probesHere(partCount());
   int i = 0;
   do {
     sum += reflectedBy(partOf(f, i), frame, wo);

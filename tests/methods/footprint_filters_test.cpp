@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "methods/registry.hpp"
-#include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "tests/methods/method_number.hpp"
 #include "tests/support/rendering.hpp"
@@ -18,12 +17,6 @@
 
 namespace footprint::testing {
 namespace {
-
-FootprintFilter filter_of(const std::string& text) { return parse_footprint_filter(text, ""); }
-
-double error_of(const Image& picture, const Image& reference) {
-  return compare_images(picture, reference, 1.0F).value().relative_rmse;
-}
 
 Scene receding_square() {
   Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});

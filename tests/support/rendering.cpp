@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
@@ -52,8 +53,8 @@ TestRenderer::Prepared& TestRenderer::prepared(const Method& method, const std::
   return *found;
 }
 
-Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile,
-                          double distance, EnvironmentUse environment) {
+const FrameRenderer& TestRenderer::frames(const Method& method, const std::string& text, const FootprintFilter& filter,
+                                          int tile, EnvironmentUse environment) {
   Prepared& drawn = prepared(method, text);
   const Prepared::Key key{filter, tile, environment};
   auto found = std::ranges::find(drawn.frames, key, [](const auto& frames) { return frames.first; });
@@ -66,8 +67,28 @@ Image TestRenderer::frame(const Method& method, const std::string& text, const F
         key, std::make_unique<FrameRenderer>(context_->info(), gpu_scene_, drawn.gpu, size_, settings, tile));
     found = std::prev(drawn.frames.end());
   }
-  Image picture = found->second->render({.size = size_, .camera = camera_at_distance(scene_, distance)});
+  return *found->second;
+}
+
+Image TestRenderer::frame(const Method& method, const std::string& text, const FootprintFilter& filter, int tile,
+                          double distance, EnvironmentUse environment) {
+  Image picture = frames(method, text, filter, tile, environment)
+                      .render({.size = size_, .camera = camera_at_distance(scene_, distance)});
   context_->check("drawing a test frame");
+  return picture;
+}
+
+Image TestRenderer::mean_frame(const Method& method, const std::string& text, const FootprintFilter& filter,
+                               std::uint32_t count, std::uint64_t seed, int tile) {
+  const FrameRenderer& drawn = frames(method, text, filter, tile, EnvironmentUse::sampled);
+  Image picture(size_.x, size_.y, 4);
+  std::vector<double> sums(picture.texels.size(), 0.0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Image frame = drawn.render({.size = size_, .camera = scene_.camera, .seed = seed, .frame = i});
+    std::ranges::transform(frame.texels, sums, sums.begin(), [](float value, double sum) { return sum + value; });
+  }
+  context_->check("drawing a sequence of test frames");
+  std::ranges::transform(sums, picture.texels.begin(), [&](double sum) { return static_cast<float>(sum / count); });
   return picture;
 }
 
@@ -122,6 +143,12 @@ double largest_difference(const Image& a, const Image& b) {
   }
   return largest;
 }
+
+double error_of(const Image& picture, const Image& reference) {
+  return compare_images(picture, reference, 1.0F).value().relative_rmse;
+}
+
+FootprintFilter filter_of(const std::string& text) { return parse_footprint_filter(text, ""); }
 
 double covered_mean(const Image& picture) {
   double sum = 0;

@@ -25,6 +25,9 @@ class TestRenderer {
 
   [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {},
                             int tile = 0, double distance = 1.0, EnvironmentUse environment = EnvironmentUse::sampled);
+  /// The same at the start of a sequence of frames, each with draws of its own: their mean, in double precision.
+  [[nodiscard]] Image mean_frame(const Method& method, const std::string& text, const FootprintFilter& filter,
+                                 std::uint32_t frames, std::uint64_t seed = 1, int tile = 0);
   /// Texture lookups and lobe evaluations per pixel of that frame.
   [[nodiscard]] PixelWork work(const Method& method, const std::string& text, const FootprintFilter& filter);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
@@ -44,6 +47,8 @@ class TestRenderer {
   struct Prepared;
 
   [[nodiscard]] BakedMethod baked(const Method& method, const std::string& text) const;
+  [[nodiscard]] const FrameRenderer& frames(const Method& method, const std::string& text,
+                                            const FootprintFilter& filter, int tile, EnvironmentUse environment);
   /// The method baked and uploaded, on the first call for `text`.
   [[nodiscard]] Prepared& prepared(const Method& method, const std::string& text);
 
@@ -62,6 +67,12 @@ class TestRenderer {
 
 /// The largest absolute difference of any channel; infinite for different sizes or a NaN.
 [[nodiscard]] double largest_difference(const Image& a, const Image& b);
+
+/// The relative RMSE of an image over the pixels of a reference.
+[[nodiscard]] double error_of(const Image& picture, const Image& reference);
+
+/// A filter from its text: "box:3".
+[[nodiscard]] FootprintFilter filter_of(const std::string& text);
 
 /// The mean of the three colour channels over the pixels of four channels that are wholly covered; NaN where none is.
 [[nodiscard]] double covered_mean(const Image& picture);

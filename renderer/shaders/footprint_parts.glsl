@@ -1,0 +1,72 @@
+// The parts of a pixel's footprint that are filtered and shaded separately: those that tile it, or texels drawn at random.
+
+// A part: its centre, from the pixel's, and its edges, in pixels; and its footprint on the normal map.
+struct FootprintPart {
+  vec2 at;
+  vec2 dx;
+  vec2 dy;
+  Footprint normal;
+};
+
+Footprint placed(Footprint f, vec2 at, vec2 dx, vec2 dy) {
+  return Footprint(f.uv + f.dx * at.x + f.dy * at.y, f.dx * dx.x + f.dy * dx.y, f.dx * dy.x + f.dy * dy.y);
+}
+
+//? if filter_stochastic
+//? include stochastic_part.glsl
+int partCount() { return footprint_parts; }
+//? else
+int partCount() { return footprint_parts * footprint_parts; }
+
+// FootprintPart `i` of n x n.
+FootprintPart partOf(Footprint f, int i) {
+  float width = 1.0 / float(footprint_parts);
+  vec2 at = (vec2(i % footprint_parts, i / footprint_parts) + 0.5) * width - 0.5;
+  return FootprintPart(at, vec2(width, 0.0), vec2(0.0, width), placed(f, at, vec2(width, 0.0), vec2(0.0, width)));
+}
+//? end
+
+Footprint onMap(Footprint f, FootprintPart p) { return placed(f, p.at, p.dx, p.dy); }
+
+Footprints partOf(Footprints f, int i) {
+  FootprintPart p = partOf(f.normal, i);
+  Footprints part;
+  part.normal = p.normal;
+//? if shared_coordinates
+  part.roughness = part.normal;
+  part.base_color = part.normal;
+//? if specular_variation
+  part.specular = part.normal;
+//? end
+//? else
+  part.roughness = onMap(f.roughness, p);
+  part.base_color = onMap(f.base_color, p);
+//? if specular_variation
+  part.specular = onMap(f.specular, p);
+//? end
+//? end
+//? if surface_coordinates
+  part.surface = onMap(f.surface, p);
+//? end
+//? if normal_layers
+  part.layer = onMap(f.layer, p);
+//? end
+//? if clear_coat and coat_weight_variation
+  part.coat_weight = onMap(f.coat_weight, p);
+//? end
+//? if clear_coat and coat_width_variation
+  part.coat_width = onMap(f.coat_width, p);
+//? end
+//? if clear_coat and coat_normal_variation
+  part.coat_normal = onMap(f.coat_normal, p);
+//? end
+//? if material_index
+  part.share = onMap(f.share, p);
+//? end
+//? if screen_derivatives
+  part_edges = mat2(p.dx, p.dy);
+  part.frame_dx = f.frame_dx * p.dx.x + f.frame_dy * p.dx.y;
+  part.frame_dy = f.frame_dx * p.dy.x + f.frame_dy * p.dy.y;
+//? end
+  return part;
+}

@@ -13,6 +13,7 @@
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
+#include "experiments/studies/method_frames.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
@@ -50,11 +51,11 @@ double distance_factor(double given, const std::optional<std::size_t>& frame, co
               fmt::format("the scene's zoom path has frames 0 to {}", scene.distances.size() - 1));
 }
 
-Image render_picture(const Stage& stage, double distance, const ReferenceSettings& reference,
-                     const Progress& progress) {
+Image render_picture(const Stage& stage, double distance, const RunSettings& run, const Progress& progress) {
+  const ReferenceSettings& reference = run.reference;
   const View view = stage.view(distance);
   Image picture = stage.methods().empty() ? stage.reference().render(view, reference.spp, reference.seed, progress).mean
-                                          : stage.methods().front().frames().render(view);
+                                          : image_of(stage.methods().front(), view, run.history);
   stage.context().check("rendering");
   return picture;
 }
@@ -91,7 +92,7 @@ void run_render(const RenderArguments& arguments) {
   ProgressParts parts(display.callback(), 3);
   const Stage stage(std::move(scene), run, parts.next(1, ""),
                     run.methods.empty() ? reference_pictures : pictures_of_a_frame);
-  const Image picture = render_picture(stage, distance, run.reference, parts.next(2, ""));
+  const Image picture = render_picture(stage, distance, run, parts.next(2, ""));
   throw_if_interrupted();
   save_picture(path, picture, run, stage.scene());
   display.finish();

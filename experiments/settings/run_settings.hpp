@@ -14,6 +14,7 @@
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
+#include "renderer/pipeline/history_settings.hpp"
 #include "renderer/pipeline/shader_flags.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/footprint_filter.hpp"
@@ -109,6 +110,14 @@ struct ReferenceSettings {
   bool by_cause = true;
 };
 
+inline constexpr std::array<Word<HistoryClamp>, 3> history_clamps{{
+    {HistoryClamp::off, "off"},
+    {HistoryClamp::box, "box"},
+    {HistoryClamp::variance, "variance"},
+}};
+
+inline constexpr std::array<Word<bool>, 2> switch_words{{{true, "on"}, {false, "off"}}};
+
 /// The timing of frames.
 struct TimingSettings {
   int repeats = 9;                      ///< timed frames of each method and distance in each process
@@ -133,6 +142,7 @@ struct RunSettings {
   ViewSettings view;
   PathSettings path;
   std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter
+  HistorySettings history;                   ///< of the methods' frames
   ReferenceSettings reference;
   TimingSettings timing;
   std::vector<std::string> gpus;  ///< whose cost is estimated, by name

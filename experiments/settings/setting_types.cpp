@@ -215,6 +215,14 @@ SettingType positive_number(Field<std::optional<double>> field, double low, doub
           .text = text_of(field)};
 }
 
+SettingType positive_number(Field<double> field, double low, double high) {
+  return {.word = "X",
+          .takes = fmt::format("{} to {}", low, high),
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run) = parse_positive(option, text, low, high); },
+          .text = [=](RunSettings run) { return fmt::format("{:g}", field(run)); }};
+}
+
 SettingType angle(Field<std::optional<double>> field, double most) {
   return {.word = "DEGREES",
           .takes = fmt::format("-{0} to {0}", most),

@@ -41,6 +41,7 @@ using Field = Value& (*)(RunSettings& run);
 
 /// A number above 0.
 [[nodiscard]] SettingType positive_number(Field<std::optional<double>> field, double low, double high);
+[[nodiscard]] SettingType positive_number(Field<double> field, double low, double high);
 
 /// An angle in degrees, in either direction, not 0.
 [[nodiscard]] SettingType angle(Field<std::optional<double>> field, double most);

@@ -17,6 +17,7 @@ const Commands of_a_picture{"compare", "recommend", "render", "animate", "edit",
 const Commands that_compare{"compare", "recommend"};
 const Commands with_a_reference{"compare", "recommend", "render", "animate", "score"};
 const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf", "cost"};
+const Commands with_a_history{"compare", "render", "animate"};
 const Commands that_draw{"compare", "recommend", "render", "animate", "edit", "explain",
                          "ndf",     "run",       "check",  "score",   "cost"};
 const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake",
@@ -241,6 +242,39 @@ std::vector<Setting> view_settings() {
   };
 }
 
+std::vector<Setting> history_settings() {
+  return {
+      {.option = "--history",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history",
+       .type = whole_number([](Run& run) -> int& { return run.history.frames; }, 0, 1024),
+       .help = "frames of the first view, or of each distance, that are accumulated before an image is shown; later "
+               "frames of "
+               "a path are added to them (docs/temporal.md); 0: no history"},
+      {.option = "--history-alpha",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history_alpha",
+       .type = positive_number([](Run& run) -> double& { return run.history.alpha; }, 0.001, 1),
+       .help = "share of the newest frame in a history"},
+      {.option = "--history-clamp",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history_clamp",
+       .type = one_word([](Run& run) -> HistoryClamp& { return run.history.clamp; }, history_clamps, "clamp"),
+       .help = "limits of a history from the 3 x 3 pixels of the newest frame: none, their range, or also one "
+               "deviation from "
+               "their mean"},
+      {.option = "--history-jitter",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history_jitter",
+       .type = one_word([](Run& run) -> bool& { return run.history.jitter; }, switch_words, "switch"),
+       .help = "whether the samples of a history's frames move within the pixels"},
+  };
+}
+
 std::vector<Setting> reference_settings() {
   return {
       {.option = "--spp",
@@ -364,6 +398,7 @@ std::span<const Setting> run_settings() {
     };
     add("Scene and methods", scene_settings());
     add("View", view_settings());
+    add("History", history_settings());
     add("Reference", reference_settings());
     add("Timing and OpenGL", timing_settings());
     return all;

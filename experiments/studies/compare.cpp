@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/studies/distance_result.hpp"
+#include "experiments/studies/method_frames.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_noise.hpp"
@@ -41,12 +42,14 @@ struct Workbench {
       : stage(std::move(scene), settings, staging, pictures_of_a_frame,
               is_animation(settings) ? Unit::none : Unit::direct,
               is_animation(settings) ? Refusal::ends_the_run : Refusal::is_recorded),
+        frames(stage, settings),
         measurer(stage),
         references(settings, stage, folder, progress, shared) {
     if (!settings.gpus.empty()) gpu_costs.emplace(stage, settings.gpus, compiler);
   }
 
   Stage stage;
+  MethodFrames frames;
   MethodMeasurer measurer;
   ReferenceRenderer references;
   std::optional<GpuCosts> gpu_costs{};
@@ -193,7 +196,7 @@ Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& 
   Workbench& bench = job.workbench();
   const std::string& text = job.settings.methods[index].text;
   const std::string prefix = fmt::format("{}: {}, ", view_words(job.settings, target.index, target.at), text);
-  MethodPictures pictures{.frame = staged.frames().render(target.view), .finest = {}};
+  MethodPictures pictures{.frame = bench.frames.render(index, job.views, target.index, target.view), .finest = {}};
   if (job.settings.reference.by_cause) pictures.finest = finest_level(job, target, staged, prefix);
   bench.stage.context().check("rendering " + text);
   record = bench.measurer.measure(staged, pictures, target, exposure);
@@ -245,7 +248,7 @@ DistanceTimes time_view(Job& job, std::size_t i) {
   const RunSettings& settings = job.settings;
   const double weight = static_cast<double>(settings.methods.size()) * settings.timing.repeats;
   Stage& stage = job.workbench().stage;
-  return time_methods(stage, stage.move_to(job.views[i]), settings.timing.repeats,
+  return time_methods(stage, stage.move_to(job.views[i]), settings,
                       job.progress.next(weight, view_words(settings, i, job.views[i]) + ": "));
 }
 
@@ -262,7 +265,7 @@ FrameBefore frame_again(Job& job, std::size_t index, float exposure, const Dista
     } else if (!staged.refusal()) {
       // A failure shows again where the method is measured.
       (void)failure_of(bench.stage.context(), job.settings.methods[m],
-                       [&] { image = staged.frames().render(before.target.view); });
+                       [&] { image = bench.frames.render(m, job.views, index, before.target.view); });
     }
   }
   return before;
@@ -402,6 +405,14 @@ std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& sce
   return way;
 }
 
+std::optional<HistoryInfo> history_of(const HistorySettings& history) {
+  if (history.frames == 0) return {};
+  return HistoryInfo{.frames = history.frames,
+                     .alpha = history.alpha,
+                     .clamp = std::string(word_for(history_clamps, history.clamp)),
+                     .jitter = history.jitter};
+}
+
 ReferenceInfo reference_of(const RunSettings& settings, const EffectSet& effects) {
   ReferenceInfo info;
   info.spp = settings.reference.spp;
@@ -420,6 +431,7 @@ ComparisonHead head_of(Job& job) {
                       .scene = stage.info({}),
                       .reference = reference_of(settings, stage.effects()),
                       .footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded())),
+                      .history = history_of(settings.history),
                       .way = way_of(settings, stage.scene()),
                       .frames = static_cast<std::size_t>(settings.view.zoom.frames),
                       .timed_frames = settings.timing.repeats,

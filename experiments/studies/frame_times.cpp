@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "renderer/core/process.hpp"
+#include "renderer/pipeline/history.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint {
@@ -51,11 +52,19 @@ bool is_ratio_known(const std::vector<double>& times, const std::vector<double>&
   return ratio.high - ratio.low < narrow * ratio.median;
 }
 
-DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress) {
+DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,
+                           const Progress& progress) {
   std::vector<DrawFrame> draws;
+  std::optional<History> history;  // of any method's frames: its cost does not depend on what they show
+  if (settings.history.frames > 0) history.emplace(view.size, settings.history);
   for (const StagedMethod& staged : stage.methods()) {
-    draws.emplace_back([&staged, &view] {
-      if (!staged.refusal()) staged.frames().draw(view);
+    draws.emplace_back([&] {
+      if (staged.refusal()) return;
+      if (history) {
+        history->add(staged.frames(), view);
+      } else {
+        staged.frames().draw(view);
+      }
     });
   }
   for (const StagedMethod& staged : stage.methods()) {
@@ -66,7 +75,7 @@ DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, co
     const std::span<const std::vector<double>> frames = std::span(times).first(stage.methods().size());
     return std::ranges::all_of(frames, [&](const auto& own) { return is_ratio_known(own, times[stage.unit()]); });
   };
-  return interleaved_times(stage.context().info(), draws, repeats, progress, is_enough);
+  return interleaved_times(stage.context().info(), draws, settings.timing.repeats, progress, is_enough);
 }
 
 void set_times(std::span<Record> records, const Stage& stage, std::span<const DistanceTimes> processes) {

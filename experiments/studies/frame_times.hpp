@@ -21,7 +21,8 @@ using FrameTimes = std::vector<DistanceTimes>;
 [[nodiscard]] bool is_ratio_known(const std::vector<double>& times, const std::vector<double>& unit);
 
 /// Those of one distance, all candidates in turn.
-[[nodiscard]] DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress);
+[[nodiscard]] DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,
+                                         const Progress& progress);
 
 /// Fills in frame times, ratios and frame builds of the records of one distance.
 /// records: one per method of the stage's settings, in their order.

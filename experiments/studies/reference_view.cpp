@@ -84,7 +84,7 @@ ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, Stage& stage, 
       folder_(std::move(folder)),
       progress_(progress),
       interior_finder_(stage.interior_finder()),
-      bound_(stage_bound(stage, settings.reference.bound, warnings_)),
+      bound_(stage_bound(stage, settings.history.frames > 0 ? BoundUse::off : settings.reference.bound, warnings_)),
       shared_(shared != nullptr ? shared : &own_) {}
 
 double ReferenceRenderer::weight(const RunSettings& settings) {

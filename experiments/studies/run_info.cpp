@@ -116,6 +116,8 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
   hash.add(fmt::format("{}", fmt::join(settings.gpus, ",")));
   add_view(hash, settings, scene);
   add_reference(hash, settings.reference);
+  const auto& [frames, alpha, clamp, jitter] = settings.history;
+  if (frames > 0) hash.add(fmt::format("history {} {} {} {}", frames, alpha, word_for(history_clamps, clamp), jitter));
   const auto& [repeats, processes, unit] = settings.timing;
   hash.add(fmt::format("{} {} {}", repeats, processes, filter_or(unit, "the methods'")));
   for (const std::string& text : more) hash.add(text);

@@ -118,7 +118,7 @@ std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) 
   require_settings_of_its_own(settings);
   std::vector<RunView> views;
   const auto add = [&](double distance, double degrees) {
-    const auto frame = static_cast<std::uint32_t>(is_animation(settings) ? views.size() : 0);
+    const auto frame = static_cast<std::uint32_t>(settings.view.zoom.frames > 0 ? views.size() : 0);
     views.push_back({.distance = distance, .degrees = degrees, .frame = frame});
   };
   if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {

@@ -25,7 +25,7 @@ namespace footprint {
 struct RunView {
   double distance = 1;      ///< factor on the camera's distance
   double degrees = 0;       ///< that camera or lights have turned by since the first view
-  std::uint32_t frame = 0;  ///< number in an animation
+  std::uint32_t frame = 0;  ///< number on a path of several frames
 
   friend auto operator<=>(const RunView&, const RunView&) = default;
 };

@@ -112,6 +112,7 @@ class RenderTarget {
   RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
   [[nodiscard]] const Texture& color(std::size_t attachment) const { return colors_[attachment]; }
+  [[nodiscard]] const Texture& depth() const { return depth_; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// Reads channels x width x height floats of an attachment, the row of window y = 0 first. Binds framebuffer 0 for

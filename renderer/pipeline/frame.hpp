@@ -20,6 +20,9 @@ class FrameRenderer {
   /// offset: of the samples from the pixels' centres, pixels.
   void draw(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 
+  /// The target that `draw` leaves a frame in; null if frames have several tiles.
+  [[nodiscard]] const gl::RenderTarget* whole_frame() const { return tiles_.size() == 1 ? &target_ : nullptr; }
+
   /// Draws and reads back: RGBA, linear radiance and coverage, row 0 at the top.
   [[nodiscard]] Image render(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 

@@ -254,6 +254,11 @@ std::string screen_vertex_shader() { return std::string(version_line).append(scr
 
 std::string resolve_shader() { return plain_stage({}, "resolve_samples.glsl"); }
 
+std::string history_shader(HistoryClamp clamp) {
+  return plain_stage({{"clamp_box", clamp == HistoryClamp::box}, {"clamp_variance", clamp == HistoryClamp::variance}},
+                     "history.glsl");
+}
+
 TextureUnits::TextureUnits(const EffectSet& effects, const Prefiltered& prefiltered) {
   for (const SharedMap& map : shared_maps()) {
     if (has(effects, map.effect)) add(map.name, "sampler2D");

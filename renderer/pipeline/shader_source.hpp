@@ -8,6 +8,7 @@
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/history_settings.hpp"
 #include "renderer/pipeline/shader_flags.hpp"
 #include "renderer/pipeline/shader_text.hpp"
 
@@ -112,5 +113,8 @@ struct ForwardShaders {
 [[nodiscard]] std::string screen_vertex_shader();
 /// The stage that adds a pass of samples to the reference's sums.
 [[nodiscard]] std::string resolve_shader();
+
+/// The fragment shader that blends a frame into a history; the vertices are screen_vertex_shader's.
+[[nodiscard]] std::string history_shader(HistoryClamp clamp);
 
 }  // namespace footprint

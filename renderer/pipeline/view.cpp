@@ -22,7 +22,7 @@ glm::dmat4 projection(const View& view) {
   if (camera.orthographic) {
     const double half_height = camera.ymag;
     const double half_width = half_height * aspect;
-    const double far = camera.zfar.value_or(1e4F);
+    const double far = camera.zfar.value_or(default_orthographic_far);
     return reversed_depth(glm::ortho(-half_width, half_width, -half_height, half_height, near, far), 1.0 / (far - near),
                           far / (far - near));
   }
@@ -62,6 +62,8 @@ std::vector<Tile> tiles_in(const Tile& part, int edge) {
   }
   return tiles;
 }
+
+glm::dmat4 clip_matrix(const View& view) { return projection(view) * glm::inverse(glm::dmat4(view.camera.world)); }
 
 glm::mat4 tile_matrix(const View& view, const Tile& tile, const glm::dvec2& offset) {
   const glm::dmat4 world_to_camera = glm::inverse(glm::dmat4(view.camera.world));

@@ -29,6 +29,12 @@ struct Tile {
 /// A part of the image in tiles.
 [[nodiscard]] std::vector<Tile> tiles_in(const Tile& part, int edge);
 
+/// Without a far plane of its own an orthographic camera sees this far.
+inline constexpr float default_orthographic_far = 1e4F;
+
+/// World to clip space of the whole image, as tile_matrix.
+[[nodiscard]] glm::dmat4 clip_matrix(const View& view);
+
 /// World to clip space for a tile. Depth is reversed, 1 at the near plane and 0 at the far one, so nearer is
 /// GL_GREATER. Computed in double precision, because the tiles of a large image differ in the last digits of its
 /// matrix. offset: of the samples from the pixels' centres, pixels.

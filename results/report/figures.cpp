@@ -114,6 +114,12 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
       {"Footprint filter", fmt::format("{} (docs/filters.md)", results.footprint)}};
+  if (results.history) {
+    const HistoryInfo& history = *results.history;
+    lines.push_back(
+        {"History", fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/temporal.md)", history.frames,
+                                history.alpha, history.clamp, history.jitter ? "on" : "off")});
+  }
   if (results.timing.frames > 0) lines.push_back({"Timing", timing_text(results.timing)});
   lines.push_back({"Supplied", list_text(scene.defaults, "none")});
   for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});

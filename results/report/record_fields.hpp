@@ -254,6 +254,13 @@ void fields(auto& archive, Is<TimingInfo> auto& value) {
   archive("processes", value.processes);
 }
 
+void fields(auto& archive, Is<HistoryInfo> auto& value) {
+  archive("frames", value.frames);
+  archive("alpha", value.alpha);
+  archive("clamp", value.clamp);
+  archive("jitter", value.jitter);
+}
+
 void fields(auto& archive, Is<AnimationWay> auto& value) {
   archive("path", value.path);
   archive("axis", value.axis);
@@ -327,6 +334,7 @@ void fields(Archive& archive, Is<Results> auto& value) {
   archive("scene", value.scene);
   archive("reference", value.reference);
   archive("footprint", value.footprint);
+  archive("history", value.history);
   archive("timing", value.timing);
   archive("way", value.way);
   archive("film", value.film);

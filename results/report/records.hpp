@@ -264,6 +264,14 @@ struct AnimationWay {
   std::optional<std::array<double, 3>> axis;  ///< of the rotation, unit, in world space; none: nothing turns
 };
 
+/// How the frames of the methods were accumulated.
+struct HistoryInfo {
+  int frames = 0;     ///< of the first view before its image was shown
+  double alpha = 0;   ///< share of the newest frame
+  std::string clamp;  ///< off, box or variance
+  bool jitter = true;
+};
+
 /// The coordinates of a member of a [matrix]: each axis with its value, as the file writes them.
 using Coordinates = std::vector<std::pair<std::string, std::string>>;
 
@@ -273,7 +281,8 @@ struct Results {
   BackendInfo backend;
   SceneInfo scene;
   ReferenceInfo reference;
-  std::string footprint;  ///< the footprint filter, as parse_footprint_filter reads it
+  std::string footprint;                    ///< the footprint filter, as parse_footprint_filter reads it
+  std::optional<HistoryInfo> history = {};  ///< none: images are single frames
   TimingInfo timing;
   std::optional<AnimationWay> way = {};  ///< none: not an animation
   std::optional<std::string> film = {};  ///< video of its frames, from the output folder; none: not requested

@@ -313,6 +313,39 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         run("animate", *light, "--seed", 2, "--shard", "2/2", "-o", other)
         refused([parts[0], other], "other options")
 
+    def test_a_history_is_the_same_in_parts_and_in_pieces(self):
+        whole, again, merged, single = (self.folder / name for name in ("whole", "again", "merged", "single"))
+        light = [*self.LIGHT, "--footprint", "stochastic:1"]
+        history = [*light, "--history", 3, "--history-clamp", "box"]
+        run("animate", *history, "-o", whole)
+        self.assertEqual(results_of(whole)["history"], {"frames": 3, "alpha": 0.1, "clamp": "box", "jitter": True})
+        parts = [self.folder / f"part_{i}" for i in (1, 2)]
+        for i, part in enumerate(parts, 1):
+            run("animate", *history, "--shard", f"{i}/2", "-o", part)
+        run("merge", *parts, "-q", "-o", merged)
+        self.assertEqual(self.files(whole), self.files(merged), "one run and its parts")
+        run("animate", *history, "-o", again)
+        next((again / "kept").glob("*/frame_0001.json")).unlink()
+        run("animate", *history, "-o", again)
+        self.assertEqual(self.files(whole), self.files(again), "a lost frame is accumulated again")
+        run("animate", *light, "-o", single)
+        self.assertIsNone(results_of(single)["history"])
+        self.assertGreater(largest_difference(*(folder / "images/direct_0002.exr" for folder in (whole, single))), 0.01)
+        # The first frame of a path is the still image of as many frames.
+        still = self.render("still", "ribbed_plane", "--method", "direct", "--size", "24x24", "--footprint", "stochastic:1",
+                            "--history", 3, "--history-clamp", "box")
+        self.assertEqual(largest_difference(still, whole / "images/direct_0000.exr"), 0.0)
+
+    def test_a_history_is_better_than_prefiltering_below_a_speed(self):
+        for speed in ("slow", "fast"):
+            run("check", SOURCE / f"experiments/temporal_{speed}.toml", "-q", "-o", self.folder / speed)
+        fast = (SOURCE / "experiments/temporal_fast.toml").read_text(encoding="utf-8")
+        wrong = self.folder / "wrong.toml"
+        wrong.write_text(fast.replace("history=24) >", "history=24) <"), encoding="utf-8")
+        done = subprocess.run([PROGRAM, "check", wrong, "-q", "-o", self.folder / "wrong"], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+
     def film(self, name, script, **options):
         """Runs with a program of that script as ffmpeg."""
         tools = self.folder / f"{name}_tools"

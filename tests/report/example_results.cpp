@@ -157,6 +157,7 @@ Results example_results() {
                    .warnings = {"KHR_materials_clearcoat is optional here and was left out"}};
   results.reference = {256, "after_shading", 7, {0.0042, 0.0051, 0.0085}};
   results.footprint = "anisotropic:8";
+  results.history = {.frames = 16, .alpha = 0.1, .clamp = "box", .jitter = true};
   results.timing = {.frames = 9, .processes = 5};
   results.error_scale = 0.1;
   for (const double distance : {1.0, 4.0, 16.0}) {

@@ -23,6 +23,10 @@ class TestRenderer {
   explicit TestRenderer(const Scene& scene, const glm::ivec2& size = {64, 64}, std::optional<EffectSet> effects = {},
                         const gl::Context& context = shared_context());
 
+  /// The frames of a method: the same object on each call.
+  [[nodiscard]] const FrameRenderer& frames(const Method& method, const std::string& text,
+                                            const FootprintFilter& filter, int tile = 0,
+                                            EnvironmentUse environment = EnvironmentUse::sampled);
   [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {},
                             int tile = 0, double distance = 1.0, EnvironmentUse environment = EnvironmentUse::sampled);
   /// The same at the start of a sequence of frames, each with draws of its own: their mean, in double precision.
@@ -47,8 +51,6 @@ class TestRenderer {
   struct Prepared;
 
   [[nodiscard]] BakedMethod baked(const Method& method, const std::string& text) const;
-  [[nodiscard]] const FrameRenderer& frames(const Method& method, const std::string& text,
-                                            const FootprintFilter& filter, int tile, EnvironmentUse environment);
   /// The method baked and uploaded, on the first call for `text`.
   [[nodiscard]] Prepared& prepared(const Method& method, const std::string& text);
 

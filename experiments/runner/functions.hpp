@@ -22,9 +22,10 @@ enum class Selector {
   distance,
   frame,
   spp,
-  scene,  ///< this and the next three: of the members of a matrix those that have the value on that axis
+  scene,  ///< this and the next four: of the members of a matrix those that have the value on that axis
   size,
   filter,  ///< written "footprint": the footprint filter
+  history,
   seed,
   footprint,  ///< of an effective NDF
   name,

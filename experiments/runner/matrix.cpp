@@ -28,8 +28,11 @@ struct AxisSource {
   std::string_view key, table;  // of the setting
 };
 
-constexpr std::array<AxisSource, 4> axis_sources{
-    {{"scene", "experiment"}, {"size", "experiment"}, {"footprint", "experiment"}, {"seed", "reference"}}};
+constexpr std::array<AxisSource, 5> axis_sources{{{"scene", "experiment"},
+                                                  {"size", "experiment"},
+                                                  {"footprint", "experiment"},
+                                                  {"history", "experiment"},
+                                                  {"seed", "reference"}}};
 
 const Setting& setting_of(std::string_view key) {
   const AxisSource& source = *std::ranges::find(axis_sources, key, &AxisSource::key);
@@ -116,7 +119,7 @@ void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
 
 // The name of a value in a folder's name; of a path only its distinctive part.
 std::string value_name(const std::string& key, const std::string& value) {
-  if (key == "seed") return "seed" + value;
+  if (key == "seed" || key == "history") return key + value;
   if (key != "scene") return value;
   const fs::path path(value);
   if (path.filename() == "scene.toml") return path.parent_path().filename().string();

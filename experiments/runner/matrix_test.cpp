@@ -92,6 +92,18 @@ TEST_F(MatrixFile, MethodsAreMultipliedByTheirOptions) {
   EXPECT_TRUE(experiment.axes.empty()) << "one run: no members";
 }
 
+TEST_F(MatrixFile, HistoriesAreAnAxis) {
+  const Experiment experiment =
+      read(no_scene + "scene = \"bumps\"\nhistory_clamp = \"box\"\n[matrix]\nhistory = [0, 24]\n" +
+           claim("error(direct, history=24) < error(tan_gmm, history=0)"));
+  const std::vector<Experiment> members = members_of_matrix(experiment);
+  ASSERT_EQ(members.size(), 2U);
+  EXPECT_EQ(members.back().name, "history24");
+  EXPECT_EQ(members.back().run.history.frames, 24);
+  EXPECT_EQ(members.back().run.history.clamp, HistoryClamp::box);
+  expect_complaint(no_scene + "scene = \"bumps\"\n[matrix]\nhistory = [0, -1]\n", "mine.toml:", "history");
+}
+
 TEST_F(MatrixFile, IsRefusedAtItsLineBeforeAnythingIsRendered) {
   const auto complains = [&](const std::string& matrix, const std::string& part) {
     expect_complaint(no_scene + "[matrix]\n" + matrix, "mine.toml:", part);

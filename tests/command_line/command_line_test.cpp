@@ -72,6 +72,19 @@ const std::vector<Case> wrong_words{
      .arguments = {"compare", "{}/a.gltf", "--filter", "bilinaer", "-o", "{}/out"},
      .exit_code = 2,
      .errors_have = {"--filter", "did you mean `bilinear`?"}},
+    {.name = "WrongHistory",
+     .arguments = {"render", "ribbed_plane", "--method", "direct", "--history", "-1", "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"--history"}},
+    {.name = "HistoryInTiles",
+     .arguments = {"render", "ribbed_plane", "--method", "direct", "--size", "16x16", "--history", "2", "--tile", "8",
+                   "-o", "{}/a.exr"},
+     .exit_code = 2,
+     .errors_have = {"drawn in tiles", "no --tile"}},
+    {.name = "MapsOfDrawnTexels",
+     .arguments = {"bake", "ribbed_plane", "--method", "toksvig", "--footprint", "stochastic", "-o", "{}/out"},
+     .exit_code = 2,
+     .errors_have = {"draws other texels in each frame", "--footprint trilinear"}},
 };
 
 const std::vector<Case> wrong_values{

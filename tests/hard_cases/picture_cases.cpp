@@ -198,7 +198,10 @@ std::span<const PictureCase> picture_cases() {
                                          {FootprintFilterKind::box, 3},
                                          {FootprintFilterKind::area, 3},
                                          {FootprintFilterKind::ewa, 8},
-                                         {FootprintFilterKind::shaded, 2}}) {
+                                         {FootprintFilterKind::shaded, 2},
+                                         {FootprintFilterKind::stochastic, 2},
+                                         {FootprintFilterKind::stochastic_gaussian, 2, 1},
+                                         {FootprintFilterKind::stochastic_trilinear, 2, 0}}) {
       all.push_back({.name = fmt::format("filter_{}", file_stem(footprint_filter_text(filter))),
                      .description = fmt::format("one normal everywhere, seen from 11 degrees, under {}",
                                                 footprint_filter_text(filter)),

@@ -51,6 +51,7 @@ TEST(TanGmmColour, WeighsTheGlossByTheColour) {
     threads.alphas.texels[i] = (i % 32 / 4) % 2 == 0 ? 0.1F : 0.5F;
   const double mean_alpha = std::sqrt(0.8 * 0.1 * 0.1 + 0.2 * 0.5 * 0.5);  // alpha squared is linear in the variance
   std::vector<glm::dvec3> expected;
+  expected.reserve(directions.size());
   for (const glm::dvec3& h : directions)
     expected.emplace_back(0.5 * base_density(NormalDistribution::ggx, mean_alpha, {0, 0, 1}, h));
   EXPECT_LT(relative_l2(threads.specular(tan_gmm_method(), together, directions, false), expected), 1e-4);

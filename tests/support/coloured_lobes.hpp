@@ -65,6 +65,7 @@ struct ColouredLobes {
     probed.effects.set(static_cast<std::size_t>(Effect::specular_variation));
     probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation), !alphas.empty());
     std::vector<std::array<glm::vec4, 3>> inputs;
+    inputs.reserve(directions.size());
     for (const glm::dvec3& h : directions)
       inputs.push_back({glm::vec4(glm::vec3(h), 0), glm::vec4(glm::vec3(mean_colour()), 0), glm::vec4(0)});
     std::vector<glm::dvec3> out;

@@ -73,18 +73,18 @@ Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_par
   return out;
 }
 
-Image variance_layer(std::span<const PlanePoint> points, std::span<const float> shares, std::size_t parts,
-                     const Image& variance, int width, int height, int layer) {
-  Image out(width, height, 4);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      const double v = variance.at(x * variance.width / width, y * variance.height / height)[0];
+Image value_layer(const PartedPoints& map, const Image& values, int layer) {
+  Image out(map.width, map.height, 4);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const std::size_t i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
+      const double v = values.at(x * values.width / map.width, y * values.height / map.height)[0];
       for (std::size_t c = 0; c < 4; ++c) {
         const std::size_t part = 4 * static_cast<std::size_t>(layer) + c;
-        if (part >= parts) break;
+        if (part >= map.parts) break;
         out.texels[4 * i + c] =
-            static_cast<float>(points[i].weight * static_cast<double>(shares[i * parts + part]) * v);
+            static_cast<float>(map.points[i].weight * static_cast<double>(map.shares[i * map.parts + part]) * v);
       }
     }
   }

@@ -1,5 +1,6 @@
-// The moments that a texel stores of each part: weight, first moments about the part's centre, second moments, and the
-// variance of the base lobe. All are linear in the texels below. Moments are along the axes of the part.
+// The moments that a texel stores of each part: weight, first moments about the part's centre, second moments, and
+// values of the texel such as the variance of the base lobe. All are linear in the texels below. Moments are along the
+// axes of the part.
 #pragma once
 
 #include <array>
@@ -48,9 +49,8 @@ struct PartedPoints {
 /// Layers of four channels for `channels` of all parts together.
 [[nodiscard]] constexpr int layer_count(int channels) { return (channels + 3) / 4; }
 
-/// The finest level of w v for parts 4 layer and following. v is the value of `variance` (one channel) at the texel's
+/// The finest level of w v for parts 4 layer and following. v is the value of `values` (one channel) at the texel's
 /// centre.
-[[nodiscard]] Image variance_layer(std::span<const PlanePoint> points, std::span<const float> shares, std::size_t parts,
-                                   const Image& variance, int width, int height, int layer);
+[[nodiscard]] Image value_layer(const PartedPoints& map, const Image& values, int layer);
 
 }  // namespace footprint::cells

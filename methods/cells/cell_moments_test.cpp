@@ -112,7 +112,7 @@ TEST(CellMoments, VarianceIsThatOfThePartsOwnTexels) {
   const Map map;
   Image variance(width, height, 1);
   for (std::size_t i = 0; i < variance.texels.size(); ++i) variance.texels[i] = 0.01F * static_cast<float>(i % 5);
-  const Image top = mip_chain(variance_layer(map.points, map.shares, part_count, variance, width, height, 0)).back();
+  const Image top = mip_chain(value_layer({map.points, map.shares, part_count, width, height}, variance, 0)).back();
   for (std::size_t k = 0; k < part_count; ++k) {
     double sum = 0.0;
     for (std::size_t i = 0; i < map.points.size(); ++i)
@@ -121,7 +121,7 @@ TEST(CellMoments, VarianceIsThatOfThePartsOwnTexels) {
     EXPECT_NEAR(top.texels[k], sum / (width * height), 1e-8);
   }
   EXPECT_EQ(top.texels[3], 0.0F);
-  const Image one = variance_layer(map.points, map.shares, part_count, Image(1, 1, 1, 0.5F), width, height, 0);
+  const Image one = value_layer({map.points, map.shares, part_count, width, height}, Image(1, 1, 1, 0.5F), 0);
   EXPECT_NEAR(one.texels[4], 0.5 * map.shares[part_count], 1e-7) << "all of it is under one texel";
 }
 

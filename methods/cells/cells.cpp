@@ -9,6 +9,7 @@
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
+#include "renderer/bake/specular_weights.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
@@ -35,6 +36,9 @@ std::vector<OptionSpec> option_table() {
       word_option("roughness", {"joint", "separate"},
                   "Where the roughness varies: parts of their own for smooth and for rough texels, each with a mean of "
                   "the base lobe's variance, or parts of normals alone and one mean for all."),
+      word_option("specular", {"separate", "joint"},
+                  "Whether the map of specular colours is filtered on its own, or each part has the colour of its own "
+                  "texels, which weigh by its luminance; flat normals are then divided by roughness, too."),
       word_option("density", {"fast", "exact"},
                   "The base lobe of Blinn and Phong: by two instructions within 2e-4 of its peak, or to rounding."),
       steepest_slope_option()};
@@ -48,6 +52,7 @@ struct Settings {
   Covariance covariance;
   cells::Coordinates coordinates;
   bool joint_roughness;  // one mean of the base lobe's variance per part
+  bool joint_colour;     // a specular colour per part
   double steepest;
 };
 
@@ -59,6 +64,7 @@ Settings settings_of(const Options& options) {
           .coordinates =
               options.word("coordinates") == "slopes" ? cells::Coordinates::slopes : cells::Coordinates::stereographic,
           .joint_roughness = options.word("roughness") == "joint",
+          .joint_colour = options.word("specular") == "joint",
           .steepest = options.number("steepest")};
 }
 
@@ -68,7 +74,24 @@ struct PartedNormals {
   std::size_t parts;
   std::vector<PlanePoint> points;  // over the plane of the moments
   std::vector<float> shares;
+
+  [[nodiscard]] cells::PartedPoints map() const { return {points, shares, parts, width, height}; }
 };
+
+bool has_colours(const Settings& settings, const EffectSet& effects) {
+  return settings.joint_colour && has(effects, Effect::specular_variation);
+}
+
+// Whether there are parts. Flat normals have parts of roughness where these have colours to separate.
+bool has_parts(const Settings& settings, const EffectSet& effects) {
+  return has(effects, Effect::normal_variation) ||
+         (has_colours(settings, effects) && settings.joint_roughness && has(effects, Effect::roughness_variation));
+}
+
+// The specular colours of the texels of the normal map; white where the map of colours lies elsewhere.
+Image colours_over(const Material& material, const glm::ivec2& size) {
+  return specular_over(material, size, normal_coordinates(material)).value_or(Image(size.x, size.y, 3, 1.0F));
+}
 
 // The variance of the base lobe of each texel of the normal map.
 std::vector<double> variances_over(const Material& material, const Image& normals) {
@@ -82,13 +105,18 @@ std::vector<double> variances_over(const Material& material, const Image& normal
   return variances;
 }
 
-PartedNormals parted(const Material& material, const Settings& settings, bool roughness_varies,
+PartedNormals parted(const Material& material, const Settings& settings, const EffectSet& effects,
                      const Progress& progress) {
-  const Image normals = normal_map_of(material);
+  Image normals = normal_map_of(material);
+  if (has_colours(settings, effects)) {
+    const Image weights = specular_weights(colours_over(material, {normals.width, normals.height}));
+    for (std::size_t i = 0; i < weights.texels.size(); ++i) normals.texels[4 * i + 3] *= weights.texels[i];
+  }
   std::vector<PlanePoint> points = cells::plane_points(normals, cells::Coordinates::stereographic, settings.steepest);
   const cells::PartitionSettings partition{
       .parts = settings.parts, .labels = settings.labels, .variance = lobe_variance_chain(material).back().texels[0]};
-  const bool joint = roughness_varies && settings.joint_roughness && roughness_lies_on_normals(material);
+  const bool joint =
+      has(effects, Effect::roughness_variation) && settings.joint_roughness && roughness_lies_on_normals(material);
   std::vector<float> shares = joint
                                   ? cells::partition_with_roughness(points, variances_over(material, normals),
                                                                     normals.width, normals.height, partition, progress)
@@ -118,7 +146,7 @@ void add_moments(const PartedNormals& normals, const Settings& settings, const T
     out.vectors["cells_centres"].emplace_back(frame.centre);
     if (covariance == Covariance::axes) out.vectors["cells_axes"].emplace_back(frame.axis);
   }
-  const cells::PartedPoints map{normals.points, normals.shares, normals.parts, normals.width, normals.height};
+  const cells::PartedPoints map = normals.map();
   const int layers = cells::layer_count(cells::part_channels(covariance) * settings.parts);
   out.textures.push_back(layered_texture("cells_moments", layers, settings.storage, coordinates, [&](int layer) {
     return cells::moment_layer(map, frames, covariance, layer);
@@ -138,8 +166,7 @@ void add_roughness(const Material& material, const PartedNormals& normals, Stora
   out.textures.push_back(
       layered_texture("cells_variance", layers, storage, normal_coordinates(material), [&](int layer) {
         if (!joint) return Image(1, 1, 4);
-        return cells::variance_layer(normals.points, normals.shares, normals.parts, variance, normals.width,
-                                     normals.height, layer);
+        return cells::value_layer(normals.map(), variance, layer);
       }));
   Prefiltered separate = bake_lobe_variance(material, storage, effects);
   if (joint) {
@@ -151,18 +178,40 @@ void add_roughness(const Material& material, const PartedNormals& normals, Stora
     out.notes.emplace_back("the roughness map does not lie on the normal map's texels: all parts have one variance");
 }
 
+// Adds the specular colours of the parts, red, green and blue in layers of their own. Points weigh by luminance
+// already, so a texel has its colour over that weight.
+void add_colours(const Material& material, const PartedNormals& normals, Storage storage, Prefiltered& out) {
+  const glm::ivec2 size(normals.width, normals.height);
+  const Image colours = colours_over(material, size);
+  const Image weights = specular_weights(colours);
+  const int layers = cells::layer_count(static_cast<int>(normals.parts));
+  out.textures.push_back(
+      layered_texture("cells_colours", 3 * layers, storage, normal_coordinates(material), [&](int layer) {
+        Image hue = weights;
+        for (std::size_t i = 0; i < hue.texels.size(); ++i)
+          hue.texels[i] =
+              colours.texels[3 * i + static_cast<std::size_t>(layer / layers)] / std::max(hue.texels[i], 1e-20F);
+        return cells::value_layer(normals.map(), hue, layer % layers);
+      }));
+  if (!specular_over(material, size, normal_coordinates(material))) out.notes.emplace_back(specular_elsewhere_note);
+}
+
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
   const Settings settings = settings_of(options);
   const Storage storage = settings.storage;
-  if (!has(effects, Effect::normal_variation)) return bake_lobe_variance(material, storage, effects);
+  if (!has_parts(settings, effects)) return bake_lobe_variance(material, storage, effects);
   Prefiltered out;
-  const PartedNormals normals = parted(material, settings, has(effects, Effect::roughness_variation), progress);
+  const PartedNormals normals = parted(material, settings, effects, progress);
+  const bool coloured = has_colours(settings, effects);
   add_moments(normals, settings, normal_coordinates(material), out);
-  // Stereographic moments give the mean of the unit normals; moments of slopes do not.
-  if (has(effects, Effect::diffuse) && settings.coordinates == cells::Coordinates::slopes)
+  if (coloured) add_colours(material, normals, storage, out);
+  // Stereographic moments give the mean of the unit normals, unless colours weigh them; moments of slopes do not.
+  if (has(effects, Effect::diffuse) && has(effects, Effect::normal_variation) &&
+      (coloured || settings.coordinates == cells::Coordinates::slopes)) {
     out.textures.push_back(
         make_texture("cells_normal", mean_normal_chain(material), storage, normal_coordinates(material)));
+  }
   if (!has(effects, Effect::roughness_variation)) return out;
   if (settings.joint_roughness) {
     add_roughness(material, normals, storage, effects, out);
@@ -186,7 +235,10 @@ const Method& cells_method() {
       .precompute = precompute,
       // common_slopes.glsl reads these flags of `lean`.
       .shader = module_of(cells_glsl, "cells.glsl",
-                          {{"variant_clean", false}, {"roughness_stretched", true}, {"roughness_moments", false}}),
+                          {{"variant_clean", false},
+                           {"roughness_stretched", true},
+                           {"roughness_moments", false},
+                           {"part_colours", true}}),
       .lobe_count = [](const Options& options) { return settings_of(options).parts; }};
   return method;
 }

@@ -6,7 +6,7 @@
 //? include stretched_part.glsl
 //? end
 
-//? if normal_variation
+//? if texture_arrays
 const int parts = int(option_k);
 //? else
 const int parts = 1;
@@ -19,7 +19,7 @@ const int part_channels = 6;
 
 //? include parts_module.glsl
 
-//? if normal_variation
+//? if texture_arrays
 //? if covariance_axes
 // From the part's own axes to the plane's.
 vec2 meanOf(int i, vec2 own) {
@@ -45,7 +45,7 @@ void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) 
   vec3 spread = spreadOf(i, own_mean, m.second * per_weight);
   float share = m.first.x < least ? 0.0 : m.first.x / covered;
   e.part[i] = stretchedPart(share, mean, spread, base.parameter, base.variance);
-//? if diffuse and not coordinates_slopes
+//? if diffuse and not (coordinates_slopes or (specular_joint and specular_variation))
   e.mean_normal += share * meanNormalOf(mean, spread);
 //? end
 }
@@ -64,6 +64,27 @@ BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance)
 //? end
   return shared_lobe;
 }
+
+//? if specular_joint and specular_variation
+// A part's specular colour over that of the footprint, both per unit of their weight. Where the sum of a channel is 0,
+// so is that of the footprint, or no normal is valid.
+void setTints(inout Effective e, Footprints f, Moments moments[parts]) {
+  const int per_channel = (parts + 3) / 4;
+  vec4 layers[3 * per_channel];
+  for (int l = 0; l < 3 * per_channel; ++l) layers[l] = fetch(cells_colours, l, f.normal);
+  vec3 colours = vec3(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < parts; ++i) {
+    for (int c = 0; c < 3; ++c) e.tint[i][c] = layers[c * per_channel + i / 4][i % 4];
+    colours += e.tint[i];
+    weights += moments[i].first.x;
+  }
+  for (int i = 0; i < parts; ++i) {
+    float share = max(moments[i].first.x / weights, least_share);
+    e.tint[i] = mix(vec3(1.0), e.tint[i] / (share * max(colours, 1e-20)), greaterThan(colours, vec3(0.0)));
+  }
+}
+//? end
 
 // Of a part that is the surface's own normal, where no texel has a valid one.
 Moments flatMoments() {
@@ -94,18 +115,21 @@ void fillParts(inout Effective e, Footprints f) {
     setPart(e, i, covered, moments[i], base);
 //? end
   }
+//? if specular_joint and specular_variation
+  setTints(e, f, moments);
+//? end
 }
 //? end
 
 Effective effective(Footprints f) {
   Effective e;
-//? if normal_variation
-//? if diffuse and not coordinates_slopes
+//? if texture_arrays
+//? if diffuse and not (coordinates_slopes or (specular_joint and specular_variation))
   e.mean_normal = vec3(0.0);
   fillParts(e, f);
 //? else
   fillParts(e, f);
-//? if diffuse
+//? if diffuse and normal_variation
   e.mean_normal = fetch(cells_normal, f.normal).xyz;
 //? else
   e.mean_normal = vec3(0.0, 0.0, 1.0);
@@ -115,6 +139,9 @@ Effective effective(Footprints f) {
   e.mean_normal = vec3(0.0, 0.0, 1.0);
   BaseLobe base = baseLobe(f);
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
+//? if specular_joint and specular_variation
+  e.tint[0] = vec3(1.0);
+//? end
 //? end
   return e;
 }

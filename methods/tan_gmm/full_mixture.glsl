@@ -9,6 +9,15 @@ const int part_channels = 6;
 //? include stretched_part.glsl
 //? include parts_module.glsl
 
+BaseLobe lobeOfFacets(Footprints f) {
+//? if roughness_variation
+  float variance = facetVariance(f);
+  return BaseLobe(lobeFromVariance(variance), variance);
+//? else
+  return baseLobe(f);
+//? end
+}
+
 //? if normal_variation
 // Converts from the disc of (n_x, n_y) to stereographic coordinates, linearly about the mean. Lengths along the tilt
 // are cosine times those on the sphere, lengths across it are equal, and lengths on the plane are (1 + |p|^2) / 2 times
@@ -32,7 +41,7 @@ Part partOverDisc(float share, vec2 mean, vec3 spread, BaseLobe base) {
 void fillParts(inout Effective e, Footprints f) {
   Moments moments[parts];
   float covered = fetchMoments(tan_gmm_moments, f.normal, moments);
-  BaseLobe base = baseLobe(f);
+  BaseLobe base = lobeOfFacets(f);
   if (covered <= 0.0) {
     moments[0] = Moments(vec3(1.0, 0.0, 0.0), vec3(0.0));
     covered = 1.0;
@@ -48,6 +57,9 @@ void fillParts(inout Effective e, Footprints f) {
     e.part[i] = partOverDisc(m.first.x / covered, mean, covarianceOf(mean, m.second / m.first.x), base);
     e.mean_normal += e.part[i].share * e.part[i].axis;
   }
+//? if diffuse and specular_joint and specular_variation
+  e.mean_normal = fetch(tan_gmm_normal, f.normal).xyz;  // by area, because the colours weigh the parts
+//? end
 }
 //? end
 
@@ -56,7 +68,7 @@ Effective effective(Footprints f) {
 //? if normal_variation
   fillParts(e, f);
 //? else
-  BaseLobe base = baseLobe(f);
+  BaseLobe base = lobeOfFacets(f);
   e.mean_normal = vec3(0.0, 0.0, 1.0);
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
 //? end

@@ -7,7 +7,9 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
+#include "renderer/bake/specular_weights.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/image/mipmap.hpp"
 
 namespace footprint {
 
@@ -47,6 +49,10 @@ std::vector<OptionSpec> option_table() {
       word_option("covariance", {"isotropic", "full"},
                   "One variance for each component, as in the paper, or a whole covariance, by EM from there on; the "
                   "base lobe is then stretched, and `lobe`, `moment`, `m_step` and `variance` are as by default."),
+      word_option(
+          "specular", {"separate", "joint"},
+          "Whether the map of specular colours is filtered on its own, or texels also weigh by the luminance of "
+          "theirs in the fit of the lobes: the lobes are then those of the light that is reflected."),
       word_option("rim", {"normalized", "cut"},
                   "lobe=gaussian: what becomes of a Gaussian that reaches beyond the disc: scaled so that no energy is "
                   "lost, or cut off there, as in the paper.")};
@@ -57,6 +63,7 @@ struct Settings {
   tan_gmm::FitSettings fit;
   tan_gmm::Moment moment;
   Storage storage;
+  bool joint_colour;  // texels weigh by the luminance of their specular colour
 };
 
 tan_gmm::Start start_of(const std::string& init) {
@@ -78,24 +85,63 @@ Settings settings_of(const Options& options) {
                   .full_covariance = options.word("covariance") == "full",
                   .prior_weight = options.number("c")},
           .moment = options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published,
-          .storage = parse_storage(options.word("storage"))};
+          .storage = parse_storage(options.word("storage")),
+          .joint_colour = options.word("specular") == "joint"};
+}
+
+// The specular weight of each texel of a map; 1, with a note, where the colours lie elsewhere.
+Image weights_over(const Image& map, const TextureCoordinates& coordinates, const Material& material,
+                   Prefiltered& out) {
+  const std::optional<Image> colours = specular_over(material, {map.width, map.height}, coordinates);
+  if (colours) return specular_weights(*colours);
+  if (out.notes.empty()) out.notes.emplace_back(specular_elsewhere_note);
+  return {map.width, map.height, 1, 1.0F};
+}
+
+Image normals_of(const Material& material, bool coloured, Prefiltered& out) {
+  Image normals = normal_map_of(material);
+  if (!coloured) return normals;
+  const Image weights = weights_over(normals, normal_coordinates(material), material, out);
+  for (std::size_t i = 0; i < weights.texels.size(); ++i) normals.texels[4 * i + 3] *= weights.texels[i];
+  return normals;
+}
+
+// `lobe_variance` with weights by colour: w v and w, because their quotient does not filter linearly.
+void add_weighed_variance(const Material& material, Storage storage, RoughnessMean mean, Prefiltered& out) {
+  const Image variances = lobe_variance_map(material);
+  const Image weights = weights_over(variances, roughness_coordinates(material), material, out);
+  Image weighed(variances.width, variances.height, 2);
+  for (std::size_t i = 0; i < weights.texels.size(); ++i) {
+    weighed.texels[2 * i] = weights.texels[i] * stored_roughness(variances.texels[i], mean);
+    weighed.texels[2 * i + 1] = weights.texels[i];
+  }
+  out.textures.push_back(
+      make_texture("lobe_variance", mip_chain(std::move(weighed)), storage, roughness_coordinates(material)));
 }
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
-  const auto [fit, moment, storage] = settings_of(options);
+  const auto [fit, moment, storage, joint_colour] = settings_of(options);
+  const bool coloured = joint_colour && has(effects, Effect::specular_variation);
   if (fit.full_covariance && has(effects, Effect::multi_lobe)) {
     throw Error(ErrorKind::usage, "tan_gmm:covariance=full", "the scene's facets have several lobes each",
                 "use covariance=isotropic");
   }
   Prefiltered out;
   if (has(effects, Effect::normal_variation)) {
-    const tan_gmm::NormalField normals(normal_map_of(material));  // and the decoded map is freed
+    const tan_gmm::NormalField normals(normals_of(material, coloured, out));  // and the decoded map is freed
     tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit, moment, progress);
     const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
     out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
   }
-  append(out.textures, bake_lobe_variance(material, storage, effects, roughness_mean(options)).textures);
+  if (!coloured) {
+    append(out.textures, bake_lobe_variance(material, storage, effects, roughness_mean(options)).textures);
+    return out;
+  }
+  if (has(effects, Effect::normal_variation) && has(effects, Effect::diffuse))  // weighed by area
+    out.textures.push_back(
+        make_texture("tan_gmm_normal", mean_normal_chain(material), storage, normal_coordinates(material)));
+  if (has(effects, Effect::roughness_variation)) add_weighed_variance(material, storage, roughness_mean(options), out);
   return out;
 }
 
@@ -111,7 +157,7 @@ const Method& tan_gmm_method() {
                .honours = map_effects_but({Effect::normal_layers}),
                .slow_precompute = true},
       .precompute = precompute,
-      .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}}),
+      .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}, {"part_colours", false}}),
       .lobe_count = [](const Options& options) { return static_cast<int>(settings_of(options).fit.components); }};
   return method;
 }

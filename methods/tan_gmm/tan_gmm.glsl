@@ -1,10 +1,10 @@
 // Tan et al. 2005, "Multiresolution Reflectance Filtering": the normals under a footprint are a mixture of isotropic
 // Gaussians over the unit disc of (n_x, n_y). The weight, mean and second moment of a component are linear in its
 // samples, so that the texture filter can blend them. Mean and variance are recovered after the filter (section 4.2).
+//? include facet_variance.glsl
 //? if covariance_full
 //? include full_mixture.glsl
 //? else
-//? include lobe_variance.glsl
 
 //? if normal_variation
 const int components = int(option_n);
@@ -26,6 +26,9 @@ struct Effective {
   float spread[components];  // of the normals only, in the unit of `width`; it widens each of the material's lobes
 //? end
   float lobe;  // of a single facet
+//? if diffuse and normal_variation and specular_joint and specular_variation
+  vec3 mean_normal;  // by area, because the colours weigh the components
+//? end
 };
 
 // A Gaussian over the disc.
@@ -184,7 +187,7 @@ float componentReflectance(Effective e, int i, vec3 h, vec3 wi, vec3 wo) {
 
 float baseLobe(Footprints f) {
 //? if roughness_variation
-  return lobeFromVariance(baseVariance(f));
+  return lobeFromVariance(facetVariance(f));
 //? else
   return lobe_cutoff.x;
 //? end
@@ -211,6 +214,15 @@ Effective effective(Footprints f) {
   Component parts[components];
   vec4 layers[components];
   fetchLayers(tan_gmm_mixture, f.normal, any_level, layers);
+//? if specular_joint and specular_variation
+  // Of a dark footprint too, components are left out by their share of it.
+  float total = 0.0;
+  for (int i = 0; i < components; ++i) total += layers[i].x;
+  for (int i = 0; i < components; ++i) layers[i] /= max(total, 1e-6);
+//? if diffuse
+  e.mean_normal = fetch(tan_gmm_normal, f.normal).xyz;
+//? end
+//? end
   float covered = 0.0;  // the part of the footprint with valid normals
   for (int i = 0; i < components; ++i) {
     parts[i] = recovered(layers[i]);
@@ -239,7 +251,9 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     for (int i = 0; i < components; ++i) sum += componentReflectance(e, i, h, wi, wo);
     r.specular = fresnelTerm(s.f0, wi, wo) * sum;
   }
-//? if diffuse
+//? if diffuse and normal_variation and specular_joint and specular_variation
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
+//? elif diffuse
   r.diffuse = vec3(0.0);
   for (int i = 0; i < components; ++i) r.diffuse += e.share[i] * diffuse(e.mean[i], s, wi, wo);
 //? end
@@ -299,6 +313,9 @@ float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) {
+//? if diffuse and normal_variation and specular_joint and specular_variation
+  return e.mean_normal;
+//? end
   vec3 sum = vec3(0.0);
   for (int i = 0; i < components; ++i) sum += e.share[i] * e.mean[i];
   return sum;

@@ -9,6 +9,7 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
+#include "renderer/bake/specular_weights.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/lobes/lobe.hpp"
@@ -66,17 +67,6 @@ bool can_join(const Material& material) {
   return same_place(normal, roughness);
 }
 
-// The luminance of the specular colour's map, over its largest.
-Image specular_weights(const Material& material) {
-  const Image colours = specular_map_of(material);
-  Image weights(colours.width, colours.height, 1);
-  for (std::size_t i = 0; i < weights.texels.size(); ++i)
-    weights.texels[i] = luminance(colours.texels[3 * i], colours.texels[3 * i + 1], colours.texels[3 * i + 2]);
-  const float largest = std::max(*std::ranges::max_element(weights.texels), 1e-6F);
-  for (float& weight : weights.texels) weight /= largest;
-  return weights;
-}
-
 // 1 - |r| over the logarithm of kappa, 0.01 to 100 000. |r| itself is near 1 over most of the range.
 Image shortfall_table() {
   constexpr int entries = 1024;
@@ -100,7 +90,7 @@ struct Inputs {
         colours_vary(joint && has(effects, Effect::specular_variation)),
         normals(normals_vary ? normal_map_of(material) : Image(1, 1, 4)),
         variances(roughness_varies ? lobe_variance_map(material) : Image(1, 1, 1)),
-        weights(colours_vary ? specular_weights(material) : Image(1, 1, 1)),
+        weights(colours_vary ? specular_weights(specular_map_of(material)) : Image(1, 1, 1)),
         coordinates(normals_vary && material.normal_map ? normal_coordinates(material)
                                                         : roughness_coordinates(material)) {}
 

@@ -78,13 +78,16 @@ RoughnessMean roughness_mean(const Options& options) {
   return options.word("roughness_mean") == "concentration" ? RoughnessMean::concentration : RoughnessMean::variance;
 }
 
+float stored_roughness(float variance, RoughnessMean mean) {
+  return mean == RoughnessMean::concentration ? stored_lobe_variance / variance : variance / stored_lobe_variance;
+}
+
 Prefiltered bake_lobe_variance(const Material& material, Storage storage, const EffectSet& effects,
                                RoughnessMean mean) {
   Prefiltered out;
   if (!has(effects, Effect::roughness_variation)) return out;
   Image finest = lobe_variance_map(material);
-  for (float& v : finest.texels)
-    v = mean == RoughnessMean::concentration ? stored_lobe_variance / v : v / stored_lobe_variance;
+  for (float& v : finest.texels) v = stored_roughness(v, mean);
   out.textures.push_back(make_texture("lobe_variance", mip_chain(finest),
                                       storage == Storage::unorm8 ? Storage::fp16 : storage,
                                       roughness_coordinates(material)));

@@ -42,6 +42,9 @@ enum class RoughnessMean {
 [[nodiscard]] OptionSpec roughness_mean_option();
 [[nodiscard]] RoughnessMean roughness_mean(const Options& options);
 
+/// What a texel stores of a slope variance: it in units of stored_lobe_variance, or the reciprocal of that.
+[[nodiscard]] float stored_roughness(float variance, RoughnessMean mean);
+
 /// The texture `lobe_variance` of lobe_variance.glsl; none if the roughness does not vary. Values are
 /// variances in units of stored_lobe_variance, or the reciprocals of that, so that texels blend correctly, and half
 /// floats represent the range from a mirror's 1e-6 to 1000 for an exponent of 0.001. `unorm8` also uses half floats,

@@ -3,13 +3,16 @@
 //? if roughness_variation
 const float stored_lobe_variance = 1.0 / 64.0;  // its unit
 
-float baseVariance(Footprints f) {
+// The inverse of stored_roughness.
+float varianceOfStored(float stored) {
 //? if roughness_mean_concentration
-  return stored_lobe_variance / max(fetch(lobe_variance, f.roughness).r, 1e-6);
+  return stored_lobe_variance / max(stored, 1e-6);
 //? else
-  return fetch(lobe_variance, f.roughness).r * stored_lobe_variance;
+  return stored * stored_lobe_variance;
 //? end
 }
+
+float baseVariance(Footprints f) { return varianceOfStored(fetch(lobe_variance, f.roughness).r); }
 //? else
 float baseVariance(Footprints f) { return lobeVariance(lobe_cutoff.x); }
 //? end

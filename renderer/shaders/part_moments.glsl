@@ -34,7 +34,7 @@ BaseLobe baseLobe(Footprints f) {
 //? end
 }
 
-//? if normal_variation
+//? if texture_arrays
 const int fetched_layers = (parts * part_channels + 3) / 4;
 //? include fetch_layers.glsl
 

@@ -55,7 +55,8 @@ std::vector<glm::vec4> probe_method(const ProbedMethod& probed, const std::strin
           shared_functions(shader_flags(variant, options, baked), probed.method->shader);
   const std::string footprint = fmt::format(
       "Footprint whole_map = Footprint(vec2(0.5), vec2(1.0, 0.0), vec2(0.0, 1.0));\n"
-      "Effective e = effective(Footprints(whole_map, whole_map, whole_map{}));\n",
+      "Effective e = effective(Footprints(whole_map, whole_map, whole_map{}{}));\n",
+      has(variant.effects, Effect::specular_variation) ? ", whole_map" : "",
       has(variant.effects, Effect::normal_layers) ? ", whole_map" : "");
   std::vector<glm::vec4> out = evaluate_glsl(text, footprint + body, inputs);
   context.check("probing a method");

@@ -1,6 +1,7 @@
-"""scripts/accuracy_vs_time on small parts of real runs: it writes the page and runs nothing twice."""
+"""scripts/accuracy_vs_time and scripts/temporal_study on small parts of real runs: they write pages and run nothing twice."""
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -29,6 +30,20 @@ class QuickStudy(unittest.TestCase):
             self.assertRegex(again.stderr, "`footprint run .*accuracy_vs_time_quick.toml .*failed")
             page = subprocess.run(command[:3], capture_output=True, text=True, check=False)
             self.assertIn("Not run: `quick` under `shaded:2`.", page.stdout, "the page contains the other part")
+
+    def test_a_still_camera_gains_by_its_history(self):
+        with tempfile.TemporaryDirectory() as name:
+            def study(*words):
+                return subprocess.run([SOURCE / "scripts/temporal_study", name, "--footprint", PROGRAM, *words],
+                                      capture_output=True, text=True, check=False)
+
+            self.assertEqual(study().returncode, 1, "no results")
+            done = study("--run", "--quick")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            frame, history = (float(re.search(rf"\| `direct` \| `trilinear` \| {row} \| ([0-9.]+) \|", done.stdout)[1])
+                              for row in ("none", "jitter"))
+            self.assertLess(history, 0.6 * frame)
+            self.assertEqual(study().stdout, done.stdout)
 
 
 if __name__ == "__main__":

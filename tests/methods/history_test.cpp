@@ -142,6 +142,44 @@ TEST(History, FollowsTheSurfaceInPerspective) {
   EXPECT_LT(pixels_apart(history.image(), newest, 0.15), 50U);
 }
 
+// A smooth pattern, whose history is the pattern itself wherever the camera goes: what is left is a fraction of a
+// percent.
+TEST(History, NeitherBlursNorTrails) {
+  Scene scene = patches();
+  auto waves = std::make_shared<Image>(256, 256, 4, 1.0F);
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x)
+      waves->at(x, y)[0] = 0.5F + 0.25F * (std::sin(0.19634954F * static_cast<float>(x)) +
+                                           std::sin(0.19634954F * static_cast<float>(y)));
+  }
+  scene.materials[0].base_color_map = TextureMap{"waves", waves, {}};
+  scene.camera = square_scene({}, {}).camera;
+  TestRenderer renderer(scene, {64, 64});
+  const FrameRenderer& frames = renderer.frames(find_method("direct"), {}, filter_of("trilinear"));
+  for (const bool zooms : {true, false}) {
+    History history({64, 64}, {.frames = 1, .alpha = 0.1, .jitter = false});
+    View view{.size = {64, 64}, .camera = scene.camera};
+    const Image first = frames.render(view);
+    for (int i = 0; i < 12; ++i) {
+      const float step = static_cast<float>(i);
+      view.camera.world =
+          zooms ? glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, 0.03F * step}) * scene.camera.world
+                : glm::rotate(glm::mat4(1.0F), 0.013F * step, glm::vec3(0.3F, 0.2F, 1.0F)) * scene.camera.world;
+      history.add(frames, view);
+    }
+    const Image newest = frames.render(view), shown = history.image();
+    double largest = 0.0, moved = 0.0;
+    for (int y = 8; y < 56; ++y) {
+      for (int x = 8; x < 56; ++x) {
+        largest = std::max(largest, std::abs(static_cast<double>(shown.at(x, y)[0]) - newest.at(x, y)[0]));
+        moved = std::max(moved, std::abs(static_cast<double>(first.at(x, y)[0]) - newest.at(x, y)[0]));
+      }
+    }
+    EXPECT_LT(largest, 0.05 * moved) << "zoom " << zooms << ": " << largest << " of " << moved;
+    EXPECT_GT(moved, 0.1);
+  }
+}
+
 TEST(History, ForgetsWhatWasCovered) {
   Scene scene = box_over_floor();
   scene.lights = {PointLight{{0.0F, 0.0F, 1.5F}, glm::vec3(3.0F), {}}};  // the box is the brighter one

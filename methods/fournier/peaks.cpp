@@ -130,9 +130,13 @@ Eigen::Vector3d direction_from_disc(const Eigen::Vector2d& point) {
   return {point.x() * scale, point.y() * scale, 1.0 - 2.0 * quarter};
 }
 
-NormalCells::NormalCells(double base_variance)
-    : cells_per_unit_(1.0 / std::clamp(std::sqrt(base_variance), smallest_edge, largest_edge)),
+NormalCells::NormalCells(double edge)
+    : cells_per_unit_(1.0 / edge),
       cells_per_edge_(static_cast<std::uint32_t>(2.0 * disc_radius * cells_per_unit_) + 1) {}
+
+NormalCells NormalCells::of_lobe(double base_variance) {
+  return NormalCells(std::clamp(std::sqrt(base_variance), smallest_edge, largest_edge));
+}
 
 std::uint32_t NormalCells::cell_of(const Eigen::Vector3d& normal) const {
   const Eigen::Vector2d point = disc_from_direction(normal);

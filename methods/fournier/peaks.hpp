@@ -47,12 +47,15 @@ inline constexpr double largest_spread = 1e4;
 [[nodiscard]] Eigen::Vector2d disc_from_direction(const Eigen::Vector3d& direction);
 [[nodiscard]] Eigen::Vector3d direction_from_disc(const Eigen::Vector2d& point);
 
-/// Square cells of equal area on Lambert's disc. The normals of a cell are replaced by their moments. A cell as wide as
-/// the deviation of the base lobe leaves an error of fourth order. Cells are at least 1/16 wide, a slope variance of
-/// 1/3072, which limits the resolution of lobes above an exponent of about 3000.
+/// Square cells of equal area on Lambert's disc. The normals of a cell are replaced by their moments.
 class NormalCells {
  public:
-  explicit NormalCells(double base_variance);
+  /// Cells of at most this edge.
+  explicit NormalCells(double edge);
+
+  /// Cells as wide as the deviation of the base lobe leave an error of fourth order. They are at least 1/16 wide, a
+  /// slope variance of 1/3072, which limits the resolution of lobes above an exponent of about 3000.
+  [[nodiscard]] static NormalCells of_lobe(double base_variance);
 
   [[nodiscard]] std::uint32_t cell_of(const Eigen::Vector3d& normal) const;
 

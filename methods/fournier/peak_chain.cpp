@@ -95,7 +95,7 @@ class ChainBuilder {
     std::vector<Peak> target = target_of(bins);
     TexelFit fit;
     if (target.size() > settings_->peaks) {
-      fit = (*fit_)(target, std::move(children));
+      fit = (*fit_)({chain_.first.size(), i}, target, std::move(children));
     } else {
       std::ranges::stable_sort(target, std::greater{}, &Peak::weight);
       for (const Peak& peak : target) fit.layers.push_back(layer_of(peak));
@@ -190,7 +190,7 @@ PeakChain fit_chain(const Image& normals, const ChainSettings& settings, const F
 
 PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, FitRule rule,
                          const Progress& progress) {
-  const auto fit = [&](const std::vector<Peak>& target, std::vector<Moments> children) {
+  const auto fit = [&](const TexelPlace&, const std::vector<Peak>& target, std::vector<Moments> children) {
     const std::vector<Peak> from = rule.start == Start::own ? clustered_peaks(target, count, std::sqrt(base_variance))
                                                             : merged_peaks(std::move(children), count);
     const Fit found = fit_peaks(target, from, base_variance, rule.evaluations);

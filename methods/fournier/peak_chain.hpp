@@ -44,9 +44,15 @@ struct TexelFit {
   double error = 0.0;
 };
 
+/// A texel of a level above the finest, row by row.
+struct TexelPlace {
+  std::size_t level, texel;
+};
+
 /// Fits one texel. target: its normals, pooled; children: the peaks of the texels below it. Called from several
 /// threads.
-using FitTexel = std::function<TexelFit(const std::vector<Peak>& target, std::vector<Moments> children)>;
+using FitTexel =
+    std::function<TexelFit(const TexelPlace& place, const std::vector<Peak>& target, std::vector<Moments> children)>;
 
 struct ChainSettings {
   NormalCells cells;           ///< that pool normals

@@ -1,0 +1,71 @@
+// The best lobes of every texel of the mip chain, summed over the texels of the footprint. A lobe is the base lobe about
+// an axis, widened by a slope variance, then stretched to a covariance over the stereographic plane.
+
+struct Peak {
+  vec3 axis;
+  float deviation;  // of slopes
+  vec3 spread;      // xx, xy, yy over the plane
+  float weight;
+};
+
+//? if normal_variation
+const int peaks = int(option_k);
+//? else
+const int peaks = 1;
+//? end
+
+//? include summed_peaks.glsl
+//? include stretched_part.glsl
+
+//? if normal_variation
+ivec2 peakMapSize() { return textureSize(best_lobes_first, 0).xy; }
+
+// The finest level has one lobe per texel, so the other layers start at the next level.
+Peak peakOf(FootprintTexel texel, int i) {
+  bool finest = texel.level < 0.5;
+  FootprintTexel above = texel;
+  above.level -= 1.0;
+  vec4 stored;
+  if (i == 0) {
+    stored = fetchTexel(best_lobes_first, 0, texel);
+  } else {
+    stored = fetchTexel(best_lobes_rest, i - 1, above);
+  }
+  vec3 spread = vec3(0.0);
+  if (!finest) spread = fetchTexel(best_lobes_rest, peaks - 1 + i, above).xyz;
+  return Peak(directionFromDisc(stored.xy), stored.z, spread, stored.w);
+}
+//? end
+
+vec3 meanOfNormals(Footprints f) {
+//? if normal_variation and diffuse
+  return fetch(best_lobes_mean, f.normal).xyz;
+//? else
+  return vec3(0.0, 0.0, 1.0);
+//? end
+}
+
+Peak upPeak() { return Peak(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0); }
+
+// With the energy of the base lobe.
+Part partOf(Effective e, Peak peak) {
+  float variance = e.variance + peak.deviation * peak.deviation;
+  float width = lobeFromVariance(variance);
+  float energy = lobeEnergy(lobeFromVariance(e.variance)) / lobeEnergy(width);
+  return stretchedPart(energy, peak.axis.xy / max(1.0 + peak.axis.z, 1e-3), peak.spread, width, variance);
+}
+
+float peakDensity(Effective e, Peak peak, vec3 h) { return partDensity(partOf(e, peak), directionOf(h)); }
+
+// The geometry factor is that of single facets about the lobe's axis.
+float peakReflectance(Effective e, Peak peak, vec3 h, vec3 wi, vec3 wo) {
+  return peakDensity(e, peak, h) * geometryFactor(lobeFromVariance(e.variance), peak.axis, h, wi, wo);
+}
+
+//? if environment_light
+NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share) {
+  NormalLobe lobe = baseNormalLobe(peak.axis, lobeFromVariance(partOf(e, peak).breadth), share);
+  lobe.base = lobeFromVariance(e.variance);
+  return lobe;
+}
+//? end

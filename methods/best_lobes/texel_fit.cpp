@@ -31,6 +31,7 @@ constexpr double reach = 4.0;             // of the fine lattice beyond the norm
 constexpr double good_enough = 1e-4;      // relative error that no further lobe improves
 constexpr double negligible_square = 1e-8;
 constexpr double least_root = 0.05;  // of the base lobe's deviation: at 0 the derivative by a deviation vanishes
+constexpr double widest = 10.0;      // without it a lobe that hides energy below the horizon would widen forever
 constexpr double least_weight = 1e-3;
 constexpr std::uint64_t cluster_seeds = 2;
 constexpr std::size_t trials = 3;  // from the best starts
@@ -159,7 +160,8 @@ class Distance {
     double sum = 0.0;
     for (Eigen::Index at = 0; at < x.size(); at += per_lobe()) {
       FittedLobe lobe{.weight = x[at] * x[at]};
-      for (Eigen::Index k = 0; k + 1 < per_lobe(); ++k) lobe.parameter(k) = x[at + 1 + k];
+      for (Eigen::Index k = 0; k + 1 < per_lobe(); ++k)
+        lobe.parameter(k) = k < 2 ? x[at + 1 + k] : std::clamp(x[at + 1 + k], -widest, widest);
       lobe.mean /= std::sqrt(1.0 + lobe.mean.squaredNorm());
       sum += lobe.weight;
       lobes.push_back(lobe);
@@ -204,7 +206,10 @@ class Distance {
   }
 
   // The squared distance alone.
-  [[nodiscard]] double of(const LobeVector& x) const { return missing(lobes_at(x)).squaredNorm(); }
+  [[nodiscard]] double of(const LobeVector& x) const {
+    const double q = missing(lobes_at(x)).squaredNorm();
+    return std::isfinite(q) ? q : std::numeric_limits<double>::infinity();
+  }
 
   [[nodiscard]] LobeVector missing(const std::vector<FittedLobe>& lobes) const {
     LobeVector left = target_;

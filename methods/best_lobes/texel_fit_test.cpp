@@ -159,14 +159,20 @@ TEST(BestLobesFit, StretchedLobesFitAStreakBetter) {
 TEST(BestLobesFit, IsFiniteAtTheLimits) {
   const std::vector<Peak> edge{
       {0.5, {1.0, 0.0, 0.0}, 0.0}, {0.25, {0.0, 0.8, -0.6}, 0.0}, {0.25, {0.0, 0.0, 1.0}, 0.0}};
+  std::vector<Peak> steep;
+  for (int i = 0; i < 24; ++i)
+    steep.push_back({1.0 / 24.0, tilted(0.999 * std::cos(i * i), 0.999 * std::sin(i * i)), 0.0});
   for (const Lobe& base : {Lobe{ggx, 0.001}, Lobe{blinn_phong, 1e6}, Lobe{blinn_phong, 1e-3}, Lobe{ggx, 1.0}}) {
     for (const Shape shape : {Shape::round, Shape::stretched}) {
-      double weight = 0.0;
-      for (const FittedLobe& lobe : fit_lobes(edge, 2, family_of(base, shape), no_others).lobes) {
-        EXPECT_TRUE(lobe.mean.allFinite() && lobe.spread().allFinite()) << lobe_text(base);
-        weight += lobe.weight;
+      for (const std::vector<Peak>& target : {edge, steep}) {
+        double weight = 0.0;
+        for (const FittedLobe& lobe : fit_lobes(target, 2, family_of(base, shape), no_others).lobes) {
+          EXPECT_TRUE(lobe.mean.allFinite() && lobe.spread().allFinite()) << lobe_text(base);
+          EXPECT_LE(std::max(lobe.spread().maxCoeff(), std::abs(lobe.deviation)), 200.0) << lobe_text(base);
+          weight += lobe.weight;
+        }
+        EXPECT_NEAR(weight, 1.0, 1e-9) << lobe_text(base);
       }
-      EXPECT_NEAR(weight, 1.0, 1e-9) << lobe_text(base);
     }
   }
 }

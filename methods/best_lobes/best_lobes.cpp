@@ -3,11 +3,15 @@
 // many lobes, which takes minutes to bake.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "methods/best_lobes/other_methods.hpp"
+#include "methods/best_lobes/roughness_groups.hpp"
 #include "methods/best_lobes/texel_fit.hpp"
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/material_maps.hpp"
@@ -37,8 +41,9 @@ Settings settings_of(const Options& options) {
           .shape = options.word("shape") == "round" ? Shape::round : Shape::stretched};
 }
 
-// The lobes of one texel as layers: axis, deviation and weight of each; then the spreads.
-std::vector<Layer> layers_of(const std::vector<FittedLobe>& lobes, std::size_t count) {
+// The lobes of one texel as layers: axis, deviation and weight of each; then the spreads, and the factor of the
+// weights.
+std::vector<Layer> layers_of(const std::vector<FittedLobe>& lobes, std::size_t count, double factor) {
   std::vector<Layer> out;
   for (const FittedLobe& lobe : lobes)
     out.push_back(fournier::layer_of({.weight = lobe.weight,
@@ -47,48 +52,135 @@ std::vector<Layer> layers_of(const std::vector<FittedLobe>& lobes, std::size_t c
   out.resize(count, Layer{});
   for (const FittedLobe& lobe : lobes) {
     const Eigen::Vector3f spread = lobe.spread().cast<float>();
-    out.push_back({spread.x(), spread.y(), spread.z(), 0.0F});
+    out.push_back({spread.x(), spread.y(), spread.z(), static_cast<float>(factor)});
   }
   return out;
 }
 
+double sum_of_weights(const auto& lobes) {
+  double sum = 0.0;
+  for (const auto& lobe : lobes) sum += lobe.weight;
+  return sum;
+}
+
 // Those of 1 to `count` lobes.
-std::vector<OtherMethods> other_methods(const Material& material, std::size_t count, const Progress& progress) {
+std::vector<OtherMethods> other_methods(const Material& material, std::size_t count, bool with_roughness,
+                                        const Progress& progress) {
   std::vector<OtherMethods> others;
   for (std::size_t k = 1; k <= count; ++k) {
     const double done = static_cast<double>(k - 1) / static_cast<double>(count);
-    others.emplace_back(material, k, [&](std::string_view what, double /*fraction*/) { progress(what, 0.1 * done); });
+    others.emplace_back(material, k, with_roughness,
+                        [&](std::string_view what, double /*fraction*/) { progress(what, 0.1 * done); });
   }
   return others;
 }
 
-void add_lobes(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
-  const LobeFamily family(material.brdf.distribution, lobe_variance_chain(material).back().texels.front(),
-                          settings.shape);
-  const std::vector<OtherMethods> others = other_methods(material, settings.lobes, progress);
-  std::atomic<std::size_t> not_resolved = 0;
-  const auto fit = [&](const fournier::TexelPlace& place, const std::vector<fournier::Peak>& target,
-                       const std::vector<fournier::Moments>&) {
-    const auto starts = [&](std::size_t k) { return others[k - 1].at(place.level, place.texel, settings.shape); };
-    const best_lobes::LobeFit found = best_lobes::fit_lobes(target, settings.lobes, family, starts);
-    if (!found.resolved) ++not_resolved;
-    return fournier::TexelFit{.layers = layers_of(found.lobes, settings.lobes),
-                              .fitted = true,
-                              .converged = found.converged,
-                              .error = found.error};
-  };
-  fournier::PeakChain chain =
-      fournier::fit_chain(normal_map_of(material),
-                          {.cells = fournier::NormalCells(best_lobes::cell_edge(family)),
-                           .peaks = settings.lobes,
-                           .layers = 2 * settings.lobes},
-                          fit, [&](std::string_view what, double fraction) { progress(what, 0.1 + 0.9 * fraction); });
+// Fits the texels of one material.
+class Fitter {
+ public:
+  // groups: null if all texels have one roughness, or are taken to have.
+  Fitter(const Material& material, const Settings& settings, const best_lobes::RoughnessGroups* groups,
+         const Progress& progress)
+      : settings_(settings),
+        groups_(groups),
+        family_(material.brdf.distribution,
+                groups != nullptr ? groups->narrowest : lobe_variance_chain(material).back().texels.front(),
+                settings.shape),
+        others_(other_methods(material, settings.lobes, groups != nullptr, progress)) {}
+
+  [[nodiscard]] double cell_edge() const { return best_lobes::cell_edge(family_); }
+
+  [[nodiscard]] fournier::TexelFit fit(const fournier::TexelPlace& place,
+                                       const std::vector<fournier::Peak>& target) const {
+    return groups_ == nullptr ? fit_of_one_roughness(place, target) : fit_with_roughness(place, target);
+  }
+
+  [[nodiscard]] std::size_t not_resolved() const { return not_resolved_; }
+
+ private:
+  [[nodiscard]] fournier::TexelFit texel_fit(const best_lobes::LobeFit& found, double factor) const {
+    if (!found.resolved) ++not_resolved_;
+    return {.layers = layers_of(found.lobes, settings_.lobes, factor),
+            .fitted = true,
+            .converged = found.converged,
+            .error = found.error};
+  }
+
+  [[nodiscard]] fournier::TexelFit fit_of_one_roughness(const fournier::TexelPlace& place,
+                                                        const std::vector<fournier::Peak>& target) const {
+    const auto starts = [&](std::size_t k) { return others_[k - 1].at(place.level, place.texel, family_); };
+    return texel_fit(best_lobes::fit_lobes(target, settings_.lobes, family_, starts), 1.0);
+  }
+
+  // The base lobe of the fit is the narrowest under the texel. A lobe of the fit has the energy of that base lobe, a
+  // facet and a stored lobe that of its own width: so weights change by the energies' ratio, and their sum is free.
+  [[nodiscard]] fournier::TexelFit fit_with_roughness(const fournier::TexelPlace& place,
+                                                      std::vector<fournier::Peak> target) const {
+    const double narrowest =
+        std::max(std::ranges::min(target, {}, &fournier::Peak::spread).spread - cell_edge() * cell_edge(), 0.0);
+    const LobeFamily family(family_.distribution(), family_.variance() + narrowest, family_.shape());
+    const double covered = sum_of_weights(target);
+    for (fournier::Peak& peak : target) {
+      peak.spread -= std::min(narrowest, peak.spread);
+      peak.weight *= family.energy(peak.spread);
+    }
+    const double energy = sum_of_weights(target) / covered;
+    const auto starts = [&](std::size_t k) {
+      auto mixtures = others_[k - 1].at(place.level, place.texel, family);
+      for (std::vector<FittedLobe>& mixture : mixtures)
+        for (FittedLobe& lobe : mixture) lobe.weight /= energy;
+      return mixtures;
+    };
+    best_lobes::LobeFit found =
+        best_lobes::fit_lobes(target, settings_.lobes, family, starts, best_lobes::Weights::free);
+    for (FittedLobe& lobe : found.lobes) {
+      const double spread = lobe.deviation * lobe.deviation;
+      lobe.weight /= family.energy(spread);
+      lobe.deviation = std::sqrt(spread + narrowest);
+    }
+    const double factor = sum_of_weights(found.lobes) / covered;
+    for (FittedLobe& lobe : found.lobes) lobe.weight /= factor;
+    std::ranges::stable_sort(found.lobes, std::greater{}, &FittedLobe::weight);
+    return texel_fit(found, factor);
+  }
+
+  Settings settings_;
+  const best_lobes::RoughnessGroups* groups_;
+  LobeFamily family_;
+  std::vector<OtherMethods> others_;
+  mutable std::atomic<std::size_t> not_resolved_ = 0;
+};
+
+void add_lobes(const Material& material, const Settings& settings, bool roughness_varies, const Progress& progress,
+               Prefiltered& out) {
+  const Image normals = normal_map_of(material);
+  const bool joint = roughness_varies && roughness_lies_on_normals(material);
+  best_lobes::RoughnessGroups groups;
+  if (joint) groups = best_lobes::roughness_groups(material, normals.width, normals.height);
+  if (roughness_varies) {
+    out.scalars["best_lobes_joint"] = joint ? 1.0F : 0.0F;
+    out.scalars["best_lobes_narrowest"] = static_cast<float>(groups.narrowest);
+  }
+  const Fitter fitter(material, settings, joint ? &groups : nullptr, progress);
+  fournier::PeakChain chain = fournier::fit_chain(
+      normals,
+      {.cells = fournier::NormalCells(fitter.cell_edge()),
+       .peaks = settings.lobes,
+       .layers = 2 * settings.lobes,
+       .groups = groups.of_texels,
+       .group_spreads = groups.spreads},
+      [&](const auto& place, const auto& target, const auto& /*children*/) { return fitter.fit(place, target); },
+      [&](std::string_view what, double fraction) { progress(what, 0.1 + 0.9 * fraction); });
   if (chain.statistics.not_converged > 0) out.notes.push_back(fournier::note_on(chain.statistics));
-  if (not_resolved > 0)
+  if (fitter.not_resolved() > 0)
     out.notes.push_back(
         fmt::format("{} of {} texels have too many directions for so narrow a base lobe: they are "
                     "fitted under a wider one and are no bound",
-                    not_resolved.load(), chain.statistics.fits));
+                    fitter.not_resolved(), chain.statistics.fits));
+  if (roughness_varies && !joint)
+    out.notes.emplace_back(
+        "the roughness map does not lie on the normal map's texels: lobes are fitted for the mean of "
+        "all roughness and are no bound");
   const TextureCoordinates coordinates = normal_coordinates(material);
   std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
   first.push_back(std::move(chain.first));
@@ -102,7 +194,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
                        const Progress& progress) {
   Prefiltered out;
   if (has(effects, Effect::normal_variation)) {
-    add_lobes(material, settings_of(options), progress, out);
+    add_lobes(material, settings_of(options), has(effects, Effect::roughness_variation), progress, out);
     if (has(effects, Effect::diffuse)) {
       out.textures.push_back(
           make_texture("best_lobes_mean", mean_normal_chain(material), Storage::fp32, normal_coordinates(material)));

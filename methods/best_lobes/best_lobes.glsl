@@ -3,8 +3,9 @@
 
 struct Peak {
   vec3 axis;
-  float deviation;  // of slopes
+  float deviation;  // of slopes; below 0: none over the footprint's own base lobe
   vec3 spread;      // xx, xy, yy over the plane
+  float factor;     // of the weights of a texel
   float weight;
 };
 
@@ -31,9 +32,10 @@ Peak peakOf(FootprintTexel texel, int i) {
   } else {
     stored = fetchTexel(best_lobes_rest, i - 1, above);
   }
-  vec3 spread = vec3(0.0);
-  if (!finest) spread = fetchTexel(best_lobes_rest, peaks - 1 + i, above).xyz;
-  return Peak(directionFromDisc(stored.xy), stored.z, spread, stored.w);
+  vec4 spread = vec4(0.0);
+  if (!finest) spread = fetchTexel(best_lobes_rest, peaks - 1 + i, above);
+  // Texels without a fit have no factor.
+  return Peak(directionFromDisc(stored.xy), stored.z, spread.xyz, spread.w > 0.0 ? spread.w : 1.0, stored.w);
 }
 //? end
 
@@ -45,14 +47,25 @@ vec3 meanOfNormals(Footprints f) {
 //? end
 }
 
-Peak upPeak() { return Peak(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0); }
+// Stereographic coordinates of an axis.
+vec2 planeOf(vec3 axis) { return axis.xy / max(1.0 + axis.z, 1e-3); }
 
-// With the energy of the base lobe.
+Peak upPeak() { return Peak(vec3(0.0, 0.0, 1.0), -1.0, vec3(0.0), 1.0, 1.0); }
+
+// Where texels have base lobes of their own, a lobe is over the narrowest of the material and has the energy of its
+// width. Elsewhere it has the energy of the base lobe.
 Part partOf(Effective e, Peak peak) {
-  float variance = e.variance + peak.deviation * peak.deviation;
+  float deviation = max(peak.deviation, 0.0);
+//? if normal_variation and roughness_variation
+  if (best_lobes_joint > 0.5 && peak.deviation >= 0.0) {
+    float own = best_lobes_narrowest + deviation * deviation;
+    return stretchedPart(peak.factor, planeOf(peak.axis), peak.spread, lobeFromVariance(own), own);
+  }
+//? end
+  float variance = e.variance + deviation * deviation;
   float width = lobeFromVariance(variance);
   float energy = lobeEnergy(lobeFromVariance(e.variance)) / lobeEnergy(width);
-  return stretchedPart(energy, peak.axis.xy / max(1.0 + peak.axis.z, 1e-3), peak.spread, width, variance);
+  return stretchedPart(energy, planeOf(peak.axis), peak.spread, width, variance);
 }
 
 float peakDensity(Effective e, Peak peak, vec3 h) { return partDensity(partOf(e, peak), directionOf(h)); }

@@ -117,7 +117,9 @@ std::vector<Image> rough_maps() {
 class TexelErrors {
  public:
   explicit TexelErrors(const Material& material)
-      : scene_(scene_of_facets(material)), gpu_(shared_context().info(), scene_, effects()) {
+      : scene_(scene_of_facets(material)),
+        effects_(effects_of(material)),
+        gpu_(shared_context().info(), scene_, effects_) {
     for (int texels = material.normal_map->image.width() / 2; texels > 0; texels /= 2) {
       for (int i = 0; i < texels * texels; ++i) {
         const glm::dvec2 lower = glm::dvec2(i % texels, i / texels) / static_cast<double>(texels);
@@ -129,7 +131,7 @@ class TexelErrors {
   }
 
   [[nodiscard]] std::vector<double> of(const Method& method, const std::string& text) {
-    const BakedMethod baked = bake(method, parse_methods(text).front(), scene_, effects(), no_progress);
+    const BakedMethod baked = bake(method, parse_methods(text).front(), scene_, effects_, no_progress);
     const MethodNdf ndf(shared_context().info(), gpu_, baked, scene_.materials.front(), {});
     std::vector<double> errors;
     for (std::size_t i = 0; i < rects_.size(); ++i)
@@ -138,13 +140,15 @@ class TexelErrors {
   }
 
  private:
-  static EffectSet effects() {
+  static EffectSet effects_of(const Material& material) {
     EffectSet effects;
     effects.set(static_cast<std::size_t>(Effect::normal_variation));
+    if (material.metallic_roughness_map) effects.set(static_cast<std::size_t>(Effect::roughness_variation));
     return effects;
   }
 
   Scene scene_;
+  EffectSet effects_;
   GpuScene gpu_;
   HemisphereGrid grid_ = footprint::hemisphere_grid(64);
   std::vector<FootprintRect> rects_;
@@ -192,6 +196,42 @@ TEST(BestLobes, ErrNoMoreAtAnyTexelThanMethodsOfAsManyLobes) {
       EXPECT_LE(comparison.excess, rounding) << "distribution " << static_cast<int>(bases[i].distribution);
       EXPECT_LT(comparison.bound, 0.9 * comparison.others) << "the gate: there is something to gain";
     }
+  }
+}
+
+// Normals under a roughness of their own: half of the texels have one of three narrow lobes, the others one of three
+// wide ones, in stripes or at random.
+Material material_of_two_roughnesses(const Image& normals, NormalDistribution distribution, bool striped) {
+  const BaseBrdf brdf{distribution, GeometryTerm::none, FresnelTerm::none, true};
+  Material material = square_scene(normals, {.brdf = brdf}).materials.front();
+  const Image noise = random_normals(normals.width, normals.height, 0.5F, 77);
+  auto roughness = std::make_shared<Image>(normals.width, normals.height, 2);
+  for (std::size_t i = 0; i < noise.texels.size() / 4; ++i) {
+    const bool wide = striped ? i % 16 < 8 : noise.texels[4 * i] > 0.0F;
+    const float step = noise.texels[4 * i + 1] > 0.1F ? 0.05F : noise.texels[4 * i + 1] > -0.1F ? 0.02F : 0.0F;
+    roughness->texels[2 * i] = (wide ? 0.65F : 0.4F) + step;
+  }
+  material.metallic_roughness_map = TextureMap{.name = "two", .image = roughness, .coordinates = {}};
+  return material;
+}
+
+TEST(BestLobes, ErrNoMoreWhereTexelsHaveARoughnessOfTheirOwn) {
+  constexpr double rounding = 1e-4;
+  const std::vector<Image> maps = rough_maps();
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    TexelErrors errors(material_of_two_roughnesses(maps[i % maps.size()], bases[i].distribution, i % 2 == 0));
+    Comparison comparison;
+    std::vector<double> before;
+    for (const char* const k : {"1", "2", "4"}) {
+      const std::vector<double> own = errors.of(best_lobes_method(), std::string("best_lobes:k=") + k);
+      comparison.add(own, errors.of(cells_method(), std::string("cells:k=") + k));
+      comparison.add(own, errors.of(tan_gmm_method(), std::string("tan_gmm:n=") + k));
+      comparison.add(own, errors.of(tan_gmm_method(), std::string("tan_gmm:align=off:n=") + k));
+      if (!before.empty()) comparison.add(own, before);
+      before = own;
+    }
+    EXPECT_LE(comparison.excess, rounding) << "distribution " << static_cast<int>(bases[i].distribution);
+    EXPECT_LT(comparison.bound, 0.8 * comparison.others) << "the gate: there is something to gain";
   }
 }
 

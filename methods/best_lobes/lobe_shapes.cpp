@@ -162,6 +162,10 @@ double LobeFamily::width() const {
   return lobe_width(lobe_from_variance(distribution_, static_cast<float>(variance_)));
 }
 
+double LobeFamily::energy(double spread) const {
+  return energy_of(distribution_, variance_ + spread) / energy_of(distribution_, variance_);
+}
+
 // D(h) = scale ((1 + |p|^2) / (1 + |p'|^2))^2 D_base(h'), p' = m + A (p - m), u = 2 |p' - m|^2 / ((1 + |p'|^2) (1 +
 // |m|^2)), half the square of a chord. The derivatives of A and scale by the parameters are differences, once for a
 // lobe; all others are exact.

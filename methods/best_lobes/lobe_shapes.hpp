@@ -55,6 +55,8 @@ class LobeFamily {
   /// The standard deviation per axis of the base lobe's core, in radians.
   [[nodiscard]] double width() const;
   [[nodiscard]] NormalDistribution distribution() const { return distribution_; }
+  /// The energy over solid angle of the lobe that is wider by `spread`, over that of the base lobe.
+  [[nodiscard]] double energy(double spread) const;
 
   /// The first parameters of a lobe, which fits change.
   [[nodiscard]] Eigen::Index parameters() const { return shape_ == Shape::round ? 3 : 6; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "methods/best_lobes/starts.hpp"
+#include "methods/cells/halves.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
@@ -44,16 +45,38 @@ FittedLobe lobe_of_part(const std::array<double, 5>& moments, const cells::PartF
                         spread, shape);
 }
 
-void add_mixture(std::vector<FittedLobe> lobes, std::vector<std::vector<FittedLobe>>& mixtures) {
-  double sum = 0.0;
-  for (const FittedLobe& lobe : lobes) sum += lobe.weight;
-  for (FittedLobe& lobe : lobes) lobe.weight /= sum;
-  if (sum > 0.0) mixtures.push_back(std::move(lobes));
+// Lobes over base lobes of their own.
+class Mixture {
+ public:
+  // base_variance: slope variance of the lobe's base lobe.
+  void add(FittedLobe lobe, double base_variance, const LobeFamily& family) {
+    sum_ += lobe.weight;
+    const double spread = std::max(base_variance - family.variance(), 0.0);
+    lobe.deviation = std::hypot(lobe.deviation, std::sqrt(spread));
+    lobe.weight *= family.energy(spread);
+    lobes_.push_back(lobe);
+  }
+  void move_to(std::vector<std::vector<FittedLobe>>& mixtures) {
+    for (FittedLobe& lobe : lobes_) lobe.weight /= sum_;
+    if (sum_ > 0.0) mixtures.push_back(std::move(lobes_));
+  }
+
+ private:
+  std::vector<FittedLobe> lobes_;
+  double sum_ = 0.0;
+};
+
+// The levels above the finest.
+std::vector<Image> coarser_levels(const Image& finest) {
+  std::vector<Image> levels = mip_chain(finest);
+  levels.front() = {};
+  return levels;
 }
 
 }  // namespace
 
-OtherMethods::OtherMethods(const Material& material, std::size_t count, const Progress& progress) : count_(count) {
+OtherMethods::OtherMethods(const Material& material, std::size_t count, bool with_roughness, const Progress& progress)
+    : count_(count) {
   const Image normals = normal_map_of(material);
   const tan_gmm::NormalField field(normals);
   for (const bool align : {true, false}) {
@@ -63,39 +86,55 @@ OtherMethods::OtherMethods(const Material& material, std::size_t count, const Pr
   }
   const std::vector<cells::PlanePoint> points =
       cells::plane_points(normals, cells::Coordinates::stereographic, steepest_slope);
-  const std::vector<float> shares = cells::partition(
-      points, normals.width, normals.height,
-      {.parts = static_cast<int>(count), .variance = lobe_variance_chain(material).back().texels[0]}, progress);
+  const cells::PartitionSettings settings{.parts = static_cast<int>(count),
+                                          .variance = lobe_variance_chain(material).back().texels[0]};
+  const std::vector<double> variances =
+      with_roughness ? cells::texel_variances(material, normals.width, normals.height) : std::vector<double>{};
+  const std::vector<float> shares =
+      with_roughness
+          ? cells::partition_with_roughness(points, variances, normals.width, normals.height, settings, progress)
+          : cells::partition(points, normals.width, normals.height, settings, progress);
   constexpr auto covariance = cells::Covariance::axes;
   frames_ = cells::part_frames(points, shares, count, covariance);
   const int layers = cells::layer_count(cells::part_channels(covariance) * static_cast<int>(count));
   for (int layer = 0; layer < layers; ++layer) {
-    moments_.push_back(mip_chain(
+    moments_.push_back(coarser_levels(
         cells::moment_layer({points, shares, count, normals.width, normals.height}, frames_, covariance, layer)));
-    moments_.back().front() = {};
   }
+  if (!with_roughness) return;
+  Image finest(normals.width, normals.height, 1);
+  std::ranges::copy(variances, finest.texels.begin());
+  for (int layer = 0; layer < cells::layer_count(static_cast<int>(count)); ++layer)
+    part_variances_.push_back(
+        coarser_levels(cells::variance_layer(points, shares, count, finest, normals.width, normals.height, layer)));
+  variances_ = coarser_levels(finest);
 }
 
-std::vector<std::vector<FittedLobe>> OtherMethods::at(std::size_t level, std::size_t texel, Shape shape) const {
+std::vector<std::vector<FittedLobe>> OtherMethods::at(std::size_t level, std::size_t texel,
+                                                      const LobeFamily& family) const {
   std::vector<std::vector<FittedLobe>> out;
+  const double mean = variances_.empty() ? family.variance() : variances_[level].texels[texel];
   for (const tan_gmm::MixtureChain& mixture : mixtures_) {
-    std::vector<FittedLobe> lobes;
+    Mixture lobes;
     for (const std::vector<Image>& component : mixture) {
       const std::span stored = std::span(component[level].texels).subspan(4 * texel, 4);
-      if (stored[0] >= least_share) lobes.push_back(lobe_of_component(stored));
+      if (stored[0] >= least_share) lobes.add(lobe_of_component(stored), mean, family);
     }
-    add_mixture(std::move(lobes), out);
+    lobes.move_to(out);
   }
-  std::vector<FittedLobe> lobes;
+  Mixture lobes;
   for (std::size_t i = 0; i < count_; ++i) {
     std::array<double, 5> moments{};
     for (std::size_t c = 0; c < moments.size(); ++c) {
       const std::size_t channel = moments.size() * i + c;
       moments[c] = moments_[channel / 4][level].texels[4 * texel + channel % 4];
     }
-    if (moments[0] >= least_share) lobes.push_back(lobe_of_part(moments, frames_[i], shape));
+    if (moments[0] < least_share) continue;
+    const double own =
+        part_variances_.empty() ? mean : part_variances_[i / 4][level].texels[4 * texel + i % 4] / moments[0];
+    lobes.add(lobe_of_part(moments, frames_[i], family.shape()), own, family);
   }
-  add_mixture(std::move(lobes), out);
+  lobes.move_to(out);
   return out;
 }
 

@@ -121,11 +121,12 @@ Lattice lattice_of(const std::vector<PlaneNormal>& normals, const LobeFamily& fa
 
 // The squared distance between lobes and target as a function of the parameters of the lobes: for each the root of its
 // weight, its mean p as p / (1 - |p|^2)^(1/2), so that no mean leaves the hemisphere, its deviation and its root.
-// Weights are relative to their sum.
+// Weights are relative to their sum, or to the target's.
 class Distance {
  public:
-  Distance(const std::vector<PlaneNormal>& normals, const LobeFamily& family)
+  Distance(const std::vector<PlaneNormal>& normals, const LobeFamily& family, Weights weights)
       : normals_(&normals),
+        weights_(weights),
         lattice_(lattice_of(normals, family)),
         family_(family.distribution(), family.variance() * lattice_.widened, family.shape()) {
     target_ = LobeVector::Zero(static_cast<Eigen::Index>(lattice_.directions.size()));
@@ -166,7 +167,8 @@ class Distance {
       sum += lobe.weight;
       lobes.push_back(lobe);
     }
-    for (FittedLobe& lobe : lobes) lobe.weight /= std::max(sum, 1e-300);
+    if (weights_ == Weights::of_target)
+      for (FittedLobe& lobe : lobes) lobe.weight /= std::max(sum, 1e-300);
     return lobes;
   }
 
@@ -184,7 +186,11 @@ class Distance {
     }
     for (std::size_t i = 0; i < lobes.size(); ++i) {
       const Eigen::Index at = static_cast<Eigen::Index>(i) * per_lobe();
-      jacobian.col(at) = (2.0 * x[at] / std::max(squares, 1e-300)) * (jacobian.col(at) - sum);
+      if (weights_ == Weights::free) {
+        jacobian.col(at) *= 2.0 * x[at];
+      } else {
+        jacobian.col(at) = (2.0 * x[at] / std::max(squares, 1e-300)) * (jacobian.col(at) - sum);
+      }
       jacobian.middleCols(at + 1, per_lobe() - 1) *= lobes[i].weight;
       const Vector2d& mean = lobes[i].mean;
       const Eigen::Matrix2d by_place =
@@ -235,6 +241,7 @@ class Distance {
   [[nodiscard]] Eigen::Index per_lobe() const { return 1 + family_.parameters(); }
 
   const std::vector<PlaneNormal>* normals_;
+  Weights weights_;
   Lattice lattice_;
   LobeFamily family_;
   LobeVector target_;
@@ -314,11 +321,12 @@ Minimum best_of_starts(const Distance& distance, const std::vector<FittedLobe>& 
 
 double cell_edge(const LobeFamily& family) { return std::max(family.width() / cells_per_width, smallest_cell); }
 
-LobeFit fit_lobes(std::span<const Peak> target, std::size_t count, const LobeFamily& family, const Starts& starts) {
+LobeFit fit_lobes(std::span<const Peak> target, std::size_t count, const LobeFamily& family, const Starts& starts,
+                  Weights weights) {
   const std::vector<PlaneNormal> normals = plane_normals(target);
   double total = 0.0;
   for (const Peak& peak : target) total += peak.weight;
-  const Distance distance(normals, family);
+  const Distance distance(normals, family, weights);
   LobeFit fit{.lobes = {}, .error = std::numeric_limits<double>::infinity()};
   for (std::size_t k = 1; k <= count && fit.error > good_enough; ++k) {
     if (!distance.is_resolved(k)) {

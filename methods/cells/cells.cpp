@@ -70,18 +70,6 @@ struct PartedNormals {
   std::vector<float> shares;
 };
 
-// The variance of the base lobe of each texel of the normal map.
-std::vector<double> variances_over(const Material& material, const Image& normals) {
-  const Image map = lobe_variance_map(material);
-  std::vector<double> variances;
-  variances.reserve(normals.texel_count());
-  for (int y = 0; y < normals.height; ++y) {
-    for (int x = 0; x < normals.width; ++x)
-      variances.push_back(map.at(x * map.width / normals.width, y * map.height / normals.height)[0]);
-  }
-  return variances;
-}
-
 PartedNormals parted(const Material& material, const Settings& settings, bool roughness_varies,
                      const Progress& progress) {
   const Image normals = normal_map_of(material);
@@ -89,10 +77,10 @@ PartedNormals parted(const Material& material, const Settings& settings, bool ro
   const cells::PartitionSettings partition{
       .parts = settings.parts, .labels = settings.labels, .variance = lobe_variance_chain(material).back().texels[0]};
   const bool joint = roughness_varies && settings.joint_roughness && roughness_lies_on_normals(material);
-  std::vector<float> shares = joint
-                                  ? cells::partition_with_roughness(points, variances_over(material, normals),
-                                                                    normals.width, normals.height, partition, progress)
-                                  : cells::partition(points, normals.width, normals.height, partition, progress);
+  std::vector<float> shares =
+      joint ? cells::partition_with_roughness(points, cells::texel_variances(material, normals.width, normals.height),
+                                              normals.width, normals.height, partition, progress)
+            : cells::partition(points, normals.width, normals.height, partition, progress);
   if (settings.coordinates == cells::Coordinates::slopes)
     points = cells::plane_points(normals, cells::Coordinates::slopes, settings.steepest);
   return {normals.width, normals.height, static_cast<std::size_t>(settings.parts), std::move(points),

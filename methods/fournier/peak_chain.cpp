@@ -51,10 +51,16 @@ class ChainBuilder {
     for (std::size_t i = 0; i < level.texels.size(); i += channels) {
       const Eigen::Vector3d normal = Eigen::Map<const Eigen::Vector3f>(&normals.texels[i]).cast<double>();
       const bool is_valid = normals.texels[i + 3] > 0.0F && normal.norm() >= shortest_normal;
-      if (is_valid) store(layer_of({1.0, normal.normalized(), 0.0}), std::span(level.texels).subspan(i, channels));
+      if (!is_valid) continue;
+      const double spread = settings_->groups.empty() ? 0.0 : settings_->group_spreads[group_of(i / channels)];
+      store(layer_of({1.0, normal.normalized(), spread}), std::span(level.texels).subspan(i, channels));
     }
     const auto levels = static_cast<std::size_t>(mip_level_count(normals.width, normals.height));
     for (std::size_t i = 1; i < levels; ++i) whole_work_ += work_of(i);
+  }
+
+  [[nodiscard]] std::uint32_t group_of(std::size_t texel) const {
+    return settings_->groups.empty() ? 0 : settings_->groups[texel];
   }
 
   // The work of a level, in fits. A texel with no more normals than peaks needs no fit.
@@ -92,7 +98,7 @@ class ChainBuilder {
     std::vector<Moments> children;
     gather(x, y, children, bins);
     unite_cells(bins);
-    std::vector<Peak> target = target_of(bins);
+    std::vector<Peak> target = target_of(bins, settings_->group_spreads);
     TexelFit fit;
     if (target.size() > settings_->peaks) {
       fit = (*fit_)({chain_.first.size(), i}, target, std::move(children));
@@ -134,15 +140,17 @@ class ChainBuilder {
 
   void add_bins(int x, int y, double share, NormalBins& bins) const {
     const Image& fine = chain_.first.back();
+    const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x);
     if (bins_.empty()) {  // the finest level: one normal per texel
       const Peak peak = stored(fine.at(x, y));
-      if (peak.weight > 0.0) bins.push_back({settings_->cells.cell_of(peak.axis), {share, share * peak.axis}});
+      if (peak.weight > 0.0)
+        bins.push_back({settings_->cells.cell_of(peak.axis), group_of(index), {share, share * peak.axis}});
       return;
     }
-    const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x);
     for (const NormalBin& bin : bins_[index]) {
       NormalBin& added = bins.emplace_back();
       added.cell = bin.cell;
+      added.group = bin.group;
       added.moments.add(bin.moments, share);
     }
   }

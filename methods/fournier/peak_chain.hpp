@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,8 @@ struct ChainSettings {
   std::size_t peaks = 1;       ///< a texel of no more pooled normals than this is not fitted: they are its first layers
   std::size_t layers = 1;      ///< of a texel
   bool from_children = false;  ///< whether fits receive `children`
+  std::span<const std::uint32_t> groups{};  ///< of the finest level's texels: NormalBin::group; empty: one for all
+  std::span<const double> group_spreads{};  ///< slope variance that each group adds to that of its normals
 };
 
 /// The chain of a texel fit. `normals`: xyz and a weight of 0 or 1; texels of weight 0 have no peaks. A texel of the

@@ -148,11 +148,12 @@ std::uint32_t NormalCells::cell_of(const Eigen::Vector3d& normal) const {
 }
 
 void unite_cells(NormalBins& bins) {
-  std::ranges::stable_sort(bins, {}, &NormalBin::cell);
+  const auto key = [](const NormalBin& bin) { return std::pair(bin.group, bin.cell); };
+  std::ranges::stable_sort(bins, {}, key);
   auto last = bins.begin();
   for (auto bin = bins.begin(); bin != bins.end(); ++bin) {
     if (bin == last) continue;
-    if (bin->cell == last->cell) {
+    if (key(*bin) == key(*last)) {
       last->moments.add(bin->moments);
     } else {
       *++last = *bin;
@@ -162,10 +163,13 @@ void unite_cells(NormalBins& bins) {
   bins.shrink_to_fit();
 }
 
-std::vector<Peak> target_of(const NormalBins& bins) {
+std::vector<Peak> target_of(const NormalBins& bins, std::span<const double> group_spreads) {
   std::vector<Peak> target;
   target.reserve(bins.size());
-  for (const NormalBin& bin : bins) target.push_back(peak_of(bin.moments));
+  for (const NormalBin& bin : bins) {
+    target.push_back(peak_of(bin.moments));
+    if (!group_spreads.empty()) target.back().spread += group_spreads[bin.group];
+  }
   return target;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace footprint::fournier {
@@ -66,16 +67,17 @@ class NormalCells {
 
 struct NormalBin {
   std::uint32_t cell = 0;
+  std::uint32_t group = 0;  ///< normals of different groups stay apart
   Moments moments;
 };
 
-/// Bins sorted by cell, one per cell.
+/// Bins sorted by group and cell, one per cell of a group.
 using NormalBins = std::vector<NormalBin>;
 
-/// Merges the bins of each cell.
+/// Merges the bins of each cell of a group.
 void unite_cells(NormalBins& bins);
 
-/// The distribution that peaks are fitted to.
-[[nodiscard]] std::vector<Peak> target_of(const NormalBins& bins);
+/// The distribution that peaks are fitted to. group_spreads: a slope variance that each group adds; empty: none.
+[[nodiscard]] std::vector<Peak> target_of(const NormalBins& bins, std::span<const double> group_spreads);
 
 }  // namespace footprint::fournier

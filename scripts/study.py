@@ -72,6 +72,14 @@ def run_footprint(*words, program=PROGRAM, cache=None):
     return done.stdout
 
 
+def run_command(*words, cwd=None):
+    """What a program prints; Missing with its message if it fails."""
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, cwd=cwd)
+    if done.returncode != 0:
+        raise Missing(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"{words[0]} failed")
+    return done.stdout
+
+
 # ---- numbers, tables and text
 
 def number(value, digits=3, unit=""):
@@ -87,6 +95,10 @@ def mean(values):
 
 def geometric_mean(values):
     return math.exp(mean([math.log(max(v, 1e-9)) for v in values]))
+
+
+def counted(maps):
+    return f"{len(maps)} map{'' if len(maps) == 1 else 's'}"
 
 
 def spread(values):

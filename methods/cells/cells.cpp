@@ -93,18 +93,6 @@ Image colours_over(const Material& material, const glm::ivec2& size) {
   return specular_over(material, size, normal_coordinates(material)).value_or(Image(size.x, size.y, 3, 1.0F));
 }
 
-// The variance of the base lobe of each texel of the normal map.
-std::vector<double> variances_over(const Material& material, const Image& normals) {
-  const Image map = lobe_variance_map(material);
-  std::vector<double> variances;
-  variances.reserve(normals.texel_count());
-  for (int y = 0; y < normals.height; ++y) {
-    for (int x = 0; x < normals.width; ++x)
-      variances.push_back(map.at(x * map.width / normals.width, y * map.height / normals.height)[0]);
-  }
-  return variances;
-}
-
 PartedNormals parted(const Material& material, const Settings& settings, const EffectSet& effects,
                      const Progress& progress) {
   Image normals = normal_map_of(material);
@@ -117,10 +105,10 @@ PartedNormals parted(const Material& material, const Settings& settings, const E
       .parts = settings.parts, .labels = settings.labels, .variance = lobe_variance_chain(material).back().texels[0]};
   const bool joint =
       has(effects, Effect::roughness_variation) && settings.joint_roughness && roughness_lies_on_normals(material);
-  std::vector<float> shares = joint
-                                  ? cells::partition_with_roughness(points, variances_over(material, normals),
-                                                                    normals.width, normals.height, partition, progress)
-                                  : cells::partition(points, normals.width, normals.height, partition, progress);
+  std::vector<float> shares =
+      joint ? cells::partition_with_roughness(points, cells::texel_variances(material, normals.width, normals.height),
+                                              normals.width, normals.height, partition, progress)
+            : cells::partition(points, normals.width, normals.height, partition, progress);
   if (settings.coordinates == cells::Coordinates::slopes)
     points = cells::plane_points(normals, cells::Coordinates::slopes, settings.steepest);
   return {normals.width, normals.height, static_cast<std::size_t>(settings.parts), std::move(points),

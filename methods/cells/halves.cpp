@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "renderer/bake/normal_chain.hpp"
+
 namespace footprint::cells {
 namespace {
 
@@ -30,6 +32,16 @@ double mean_over(std::span<const double> values, const std::vector<bool>& upper,
 }
 
 }  // namespace
+
+std::vector<double> texel_variances(const Material& material, int width, int height) {
+  const Image map = lobe_variance_map(material);
+  std::vector<double> variances;
+  variances.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) variances.push_back(map.at(x * map.width / width, y * map.height / height)[0]);
+  }
+  return variances;
+}
 
 std::vector<bool> upper_group(std::span<const double> values) {
   std::vector<bool> upper(values.size(), false);

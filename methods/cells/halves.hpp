@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "methods/cells/partition.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint::cells {
+
+/// The slope variance of the base lobe of each texel of a normal map of width x height texels, row by row, where
+/// roughness_lies_on_normals(material).
+[[nodiscard]] std::vector<double> texel_variances(const Material& material, int width, int height);
 
 /// Whether each value belongs to the upper of two groups, by 2-means that starts from the extremes (Lloyd 1982).
 /// Equal values are all in the lower group. Values are finite.

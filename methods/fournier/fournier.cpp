@@ -1,7 +1,5 @@
 // `fournier`: a few Phong peaks per texel at every mip level, fitted to the distribution of normals. All peaks of the
 // footprint's texels are summed. Fournier 1992, "Normal distribution functions and multiple surfaces".
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -40,17 +38,10 @@ double base_variance(const Material& material) {
   return lobe_variance_chain(material).back().texels.front();
 }
 
-std::string note_on(const fournier::FitStatistics& statistics) {
-  return fmt::format(
-      "{} of {} fits of peaks stopped before they converged; the mean error of all is {:.2g} of the distribution's "
-      "norm",
-      statistics.not_converged, statistics.fits, statistics.mean_error);
-}
-
 void add_peaks(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
   fournier::PeakChain chain = fournier::fit_peak_chain(normal_map_of(material), base_variance(material), settings.peaks,
                                                        settings.rule, progress);
-  if (chain.statistics.not_converged > 0) out.notes.push_back(note_on(chain.statistics));
+  if (chain.statistics.not_converged > 0) out.notes.push_back(fournier::note_on(chain.statistics));
   const TextureCoordinates coordinates = normal_coordinates(material);
   std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
   first.push_back(std::move(chain.first));

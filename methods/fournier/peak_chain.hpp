@@ -1,10 +1,16 @@
 // The peaks of every texel of every mip level.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "methods/fournier/peak_fit.hpp"
+#include "methods/fournier/peaks.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/image/image.hpp"
 
@@ -17,6 +23,9 @@ struct FitStatistics {
   double mean_error = 0.0;  ///< over all fitted texels
 };
 
+/// What tables say of them.
+[[nodiscard]] std::string note_on(const FitStatistics& statistics);
+
 /// Peaks as images with 4 channels: axis on Lambert's disc (x, y), root of the spread (deviation), weight. The peaks of
 /// a texel are sorted, heaviest first, and their weights sum to the share of its area that has normals.
 struct PeakChain {
@@ -24,6 +33,43 @@ struct PeakChain {
   std::vector<std::vector<Image>> rest;  ///< the others, one chain per peak; level 0 is level 1 of `first`
   FitStatistics statistics;
 };
+
+/// What a texel stores of one peak: the four channels of `PeakChain`.
+using Layer = std::array<float, 4>;
+[[nodiscard]] Layer layer_of(const Peak& peak);
+
+/// What a fit makes of the normals of one texel.
+struct TexelFit {
+  std::vector<Layer> layers;  ///< at most ChainSettings::layers
+  bool fitted = false;
+  bool converged = true;
+  double error = 0.0;
+};
+
+/// A texel of a level above the finest, row by row.
+struct TexelPlace {
+  std::size_t level, texel;
+};
+
+/// Fits one texel. target: its normals, pooled; children: the peaks of the texels below it. Called from several
+/// threads.
+using FitTexel =
+    std::function<TexelFit(const TexelPlace& place, const std::vector<Peak>& target, std::vector<Moments> children)>;
+
+struct ChainSettings {
+  NormalCells cells;           ///< that pool normals
+  std::size_t peaks = 1;       ///< a texel of no more pooled normals than this is not fitted: they are its first layers
+  std::size_t layers = 1;      ///< of a texel
+  bool from_children = false;  ///< whether fits receive `children`
+  std::span<const std::uint32_t> groups{};  ///< of the finest level's texels: NormalBin::group; empty: one for all
+  std::span<const double> group_spreads{};  ///< slope variance that each group adds to that of its normals
+};
+
+/// The chain of a texel fit. `normals`: xyz and a weight of 0 or 1; texels of weight 0 have no peaks. A texel of the
+/// finest level has its normal as its only peak. `rest` has layers - 1 chains, but at least one. Calls progress from
+/// this thread only. Equal results at any number of threads.
+[[nodiscard]] PeakChain fit_chain(const Image& normals, const ChainSettings& settings, const FitTexel& fit,
+                                  const Progress& progress);
 
 /// The start of a texel's fit: the merged peaks of the finer texels below it, or its own heaviest normals.
 enum class Start { inherited, own };
@@ -34,10 +80,7 @@ struct FitRule {
   int evaluations = most_evaluations;
 };
 
-/// Fits `count` peaks to every texel above the finest level; a texel of the finest level has its normal as its only
-/// peak. `normals`: xyz and a weight of 0 or 1; texels of weight 0 have no peaks. `base_variance`: slope variance of
-/// the lobe about each normal. `rest` has count - 1 chains, but at least one. Calls progress from this thread only.
-/// Equal results at any number of threads.
+/// The chain of `count` peaks by `fit_peaks`. `base_variance`: slope variance of the lobe about each normal.
 [[nodiscard]] PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, FitRule rule,
                                        const Progress& progress);
 

@@ -1,11 +1,8 @@
 // Levenberg-Marquardt over the parameters of the peaks, with all inner products in closed form.
 //
-// The residual, peaks minus target, is a function on the sphere, and so are its derivatives J by the parameters.
-// Levenberg-Marquardt needs their inner products G = J^T J, c = J^T r and Q = |r|^2, which are sums of products of
-// lobes in closed form. No direction is sampled, so lobes may be arbitrarily narrow. The library takes a matrix and a
-// vector. An isometry of the residual's space does not change its steps. Therefore it receives coordinates in an
-// orthonormal basis of the span of J: L^T of G = L L^T and L^{-1} c, and the length of the residual outside of that
-// span.
+// The residual, peaks minus target, is a function on the sphere, and so are its derivatives J by the parameters. Their
+// inner products are sums of products of lobes in closed form. No direction is sampled, so lobes may be arbitrarily
+// narrow.
 //
 // Closed forms of the inner products of two lobes, with first and second derivatives.
 //
@@ -18,13 +15,12 @@
 //                                        l_ab = D (ka + kb c) (kb + ka c) + B c
 #include "methods/fournier/peak_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/LevenbergMarquardt>
 
+#include "methods/fournier/least_squares.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 namespace footprint::fournier {
@@ -59,7 +55,6 @@ using Matrix = Eigen::MatrixXd;
 constexpr int parameters_per_peak = 4;      // root of the weight, deviation, two of the axis
 constexpr double smallest_variance = 5e-7;  // the narrowest lobe of the shaders
 constexpr double largest_variance = 100.0;  // wider ones differ from the uniform one by 1%
-constexpr double ridge = 1e-10;             // relative; keeps G regular if peaks coincide or have no weight
 constexpr double negligible = 1e-6;         // of Q over the target's norm: an error below a thousandth
 constexpr double least_deviation = 0.05;  // of the base lobe's: at 0 the derivative vanishes and a peak could not widen
 constexpr double tolerance = 1e-3;        // relative change of Q or of the parameters at convergence
@@ -78,13 +73,6 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents(const Eigen::Vector3d& axis
   const Eigen::Vector3d s = axis.unitOrthogonal();
   return {s, axis.cross(s)};
 }
-
-// Q of given lobes and its derivatives by the parameters of `Objective::peaks_at`.
-struct Evaluation {
-  double q = 0.0;
-  Vector gradient;  // c
-  Matrix gram;      // G
-};
 
 // The state at a point of parameter space.
 struct Point {
@@ -137,7 +125,8 @@ class Objective {
     return peaks;
   }
 
-  [[nodiscard]] Evaluation evaluate(const Vector& x) const {
+  // Q and its derivatives by the parameters of `peaks_at`.
+  [[nodiscard]] Squares evaluate(const Vector& x) const {
     const Point point = point_at(x);
     const Matrix products = products_of_peaks(point);
     const Vector with_target = products_with_target(point);
@@ -237,48 +226,6 @@ class Objective {
   double target_norm_ = 0.0;
 };
 
-// The functor that Eigen's Levenberg-Marquardt minimises; see the top of this file.
-class Residual : public Eigen::DenseFunctor<double> {
- public:
-  explicit Residual(const Objective& objective)
-      : DenseFunctor(static_cast<int>(objective.size()), static_cast<int>(objective.size()) + 1),
-        objective_(&objective) {}
-
-  int operator()(const Vector& x, Vector& residual) {
-    const Evaluation at = objective_->evaluate(x);
-    const Vector scale = at.gram.diagonal().cwiseMax(1e-300).cwiseSqrt();
-    Matrix scaled = scale.cwiseInverse().asDiagonal() * at.gram * scale.cwiseInverse().asDiagonal();
-    scaled.diagonal().setConstant(1.0 + ridge);
-    const Eigen::LLT<Matrix> factor(scaled);
-    if (factor.info() != Eigen::Success) return -1;
-    const Eigen::Index n = objective_->size();
-    jacobian_.setZero(n + 1, n);
-    const Matrix upper = factor.matrixU();
-    jacobian_.topRows(n) = upper * scale.asDiagonal();
-    residual.resize(n + 1);
-    residual.head(n) = factor.matrixL().solve(at.gradient.cwiseQuotient(scale));
-    residual[n] =
-        std::sqrt(std::max(at.q - residual.head(n).squaredNorm(), 0.0) + negligible * objective_->target_norm());
-    x_ = x;
-    return 0;
-  }
-
-  // The library requests derivatives at the accepted point, which may not be the last that it tried.
-  int df(const Vector& x, Matrix& jacobian) {
-    if (x_.size() != x.size() || x_ != x) {
-      Vector residual;
-      if ((*this)(x, residual) < 0) return -1;
-    }
-    jacobian = jacobian_;
-    return 0;
-  }
-
- private:
-  const Objective* objective_;
-  Vector x_;
-  Matrix jacobian_;
-};
-
 }  // namespace
 
 double product(const VmfLobe& a, const VmfLobe& b) { return pair_of(a, b).value; }
@@ -327,14 +274,9 @@ Fit fit_peaks(std::span<const Peak> target, std::span<const Peak> start, double 
   Vector x = objective.parameters_of(start);
   Fit fit;
   fit.start_error = relative_error(objective.evaluate(x).q);
-  Residual residual(objective);
-  Eigen::LevenbergMarquardt<Residual> solver(residual);
-  solver.setFtol(tolerance);
-  solver.setXtol(tolerance);
-  solver.setMaxfev(evaluations);
-  const Eigen::LevenbergMarquardtSpace::Status status = solver.minimize(x);
-  using enum Eigen::LevenbergMarquardtSpace::Status;
-  fit.converged = status != TooManyFunctionEvaluation && status != UserAsked && status != ImproperInputParameters;
+  fit.converged = minimise(
+      [&](const Vector& at) { return objective.evaluate(at); },
+      {.tolerance = tolerance, .most_evaluations = evaluations, .negligible = negligible * objective.target_norm()}, x);
   fit.peaks = objective.peaks_at(x);
   fit.error = relative_error(objective.evaluate(x).q);
   return fit;

@@ -130,9 +130,13 @@ Eigen::Vector3d direction_from_disc(const Eigen::Vector2d& point) {
   return {point.x() * scale, point.y() * scale, 1.0 - 2.0 * quarter};
 }
 
-NormalCells::NormalCells(double base_variance)
-    : cells_per_unit_(1.0 / std::clamp(std::sqrt(base_variance), smallest_edge, largest_edge)),
+NormalCells::NormalCells(double edge)
+    : cells_per_unit_(1.0 / edge),
       cells_per_edge_(static_cast<std::uint32_t>(2.0 * disc_radius * cells_per_unit_) + 1) {}
+
+NormalCells NormalCells::of_lobe(double base_variance) {
+  return NormalCells(std::clamp(std::sqrt(base_variance), smallest_edge, largest_edge));
+}
 
 std::uint32_t NormalCells::cell_of(const Eigen::Vector3d& normal) const {
   const Eigen::Vector2d point = disc_from_direction(normal);
@@ -144,11 +148,12 @@ std::uint32_t NormalCells::cell_of(const Eigen::Vector3d& normal) const {
 }
 
 void unite_cells(NormalBins& bins) {
-  std::ranges::stable_sort(bins, {}, &NormalBin::cell);
+  const auto key = [](const NormalBin& bin) { return std::pair(bin.group, bin.cell); };
+  std::ranges::stable_sort(bins, {}, key);
   auto last = bins.begin();
   for (auto bin = bins.begin(); bin != bins.end(); ++bin) {
     if (bin == last) continue;
-    if (bin->cell == last->cell) {
+    if (key(*bin) == key(*last)) {
       last->moments.add(bin->moments);
     } else {
       *++last = *bin;
@@ -158,10 +163,13 @@ void unite_cells(NormalBins& bins) {
   bins.shrink_to_fit();
 }
 
-std::vector<Peak> target_of(const NormalBins& bins) {
+std::vector<Peak> target_of(const NormalBins& bins, std::span<const double> group_spreads) {
   std::vector<Peak> target;
   target.reserve(bins.size());
-  for (const NormalBin& bin : bins) target.push_back(peak_of(bin.moments));
+  for (const NormalBin& bin : bins) {
+    target.push_back(peak_of(bin.moments));
+    if (!group_spreads.empty()) target.back().spread += group_spreads[bin.group];
+  }
   return target;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace footprint::fournier {
@@ -47,12 +48,15 @@ inline constexpr double largest_spread = 1e4;
 [[nodiscard]] Eigen::Vector2d disc_from_direction(const Eigen::Vector3d& direction);
 [[nodiscard]] Eigen::Vector3d direction_from_disc(const Eigen::Vector2d& point);
 
-/// Square cells of equal area on Lambert's disc. The normals of a cell are replaced by their moments. A cell as wide as
-/// the deviation of the base lobe leaves an error of fourth order. Cells are at least 1/16 wide, a slope variance of
-/// 1/3072, which limits the resolution of lobes above an exponent of about 3000.
+/// Square cells of equal area on Lambert's disc. The normals of a cell are replaced by their moments.
 class NormalCells {
  public:
-  explicit NormalCells(double base_variance);
+  /// Cells of at most this edge.
+  explicit NormalCells(double edge);
+
+  /// Cells as wide as the deviation of the base lobe leave an error of fourth order. They are at least 1/16 wide, a
+  /// slope variance of 1/3072, which limits the resolution of lobes above an exponent of about 3000.
+  [[nodiscard]] static NormalCells of_lobe(double base_variance);
 
   [[nodiscard]] std::uint32_t cell_of(const Eigen::Vector3d& normal) const;
 
@@ -63,16 +67,17 @@ class NormalCells {
 
 struct NormalBin {
   std::uint32_t cell = 0;
+  std::uint32_t group = 0;  ///< normals of different groups stay apart
   Moments moments;
 };
 
-/// Bins sorted by cell, one per cell.
+/// Bins sorted by group and cell, one per cell of a group.
 using NormalBins = std::vector<NormalBin>;
 
-/// Merges the bins of each cell.
+/// Merges the bins of each cell of a group.
 void unite_cells(NormalBins& bins);
 
-/// The distribution that peaks are fitted to.
-[[nodiscard]] std::vector<Peak> target_of(const NormalBins& bins);
+/// The distribution that peaks are fitted to. group_spreads: a slope variance that each group adds; empty: none.
+[[nodiscard]] std::vector<Peak> target_of(const NormalBins& bins, std::span<const double> group_spreads);
 
 }  // namespace footprint::fournier

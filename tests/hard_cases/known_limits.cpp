@@ -58,7 +58,7 @@ void add_slopes(Limits& limits) {
 
 void add_widths(Limits& limits) {
   limits.add({"direct", "naive_mip", "fixed_brdf", "roughness_bake", "specular_aa", "toksvig", "lean", "leadr",
-              "fournier", "cells", "ndf_atlas", "tan_gmm", "xu_vmf", "atanasov_bins", "yan_gaussians"},
+              "fournier", "best_lobes", "cells", "ndf_atlas", "tan_gmm", "xu_vmf", "atanasov_bins", "yan_gaussians"},
              {"alphas_0_05_and_1"}, "energy", 0.22,
              "one lobe for microfacet lobes of very different widths has the norm of neither");
   limits.add({"iwasaki_sg"}, {"alphas_0_05_and_1"}, "energy", 0.42, "it leaves `roughness_variation` out");

@@ -1,4 +1,4 @@
-"""scripts/real_maps and real_maps_study on small trees, and no constant is chosen on held-out maps."""
+"""scripts/real_maps, real_maps_study and real_maps_lobes on small trees, and no constant is chosen on held-out maps."""
 import hashlib
 import json
 import os
@@ -57,8 +57,8 @@ class RealMaps(unittest.TestCase):
         self.tree, self.out = self.folder / "tree", self.folder / "out"
         (self.tree / "grooves").mkdir(parents=True)
 
-    def surface(self, surface, name):
-        subprocess.run([PROGRAM, "surface", surface, "--resolution", "64", "-o", self.tree / name], check=True,
+    def surface(self, surface, name, resolution=64):
+        subprocess.run([PROGRAM, "surface", surface, "--resolution", str(resolution), "-o", self.tree / name], check=True,
                        capture_output=True)
 
     def collect(self):
@@ -163,6 +163,27 @@ class RealMaps(unittest.TestCase):
             done = subprocess.run([PROGRAM, "check", self.out / f"{roughness}.toml", "-o", self.folder / roughness],
                                   capture_output=True, text=True, check=False, env=os.environ)
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+
+    def test_errors_are_broken_down_into_filter_lobes_and_fit(self):
+        self.surface("bumps", f"{development_name('bumps')}.png", 32)
+        self.assertEqual(self.collect().returncode, 0)
+
+        def lobes(*words):
+            return subprocess.run([SOURCE / "scripts/real_maps_lobes", self.out, self.folder / "lobes", *words],
+                                  capture_output=True, text=True, check=False, env=os.environ)
+
+        missing = lobes()
+        self.assertEqual((missing.returncode, "has no results" in missing.stderr), (1, True))
+        done = lobes("--run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        cells = re.split(r" ?\| ?", done.stdout.splitlines()[2])[1:-1]
+        self.assertRegex(cells[0], "^[a-z]+, 1 map$")
+        best = float(cells[2])
+        for cell in cells[3:]:
+            own, fit = map(float, cell.split(";"))
+            self.assertLess(best, own)
+            self.assertAlmostEqual(own - best, fit, delta=0.01 * own)
+        self.assertEqual(lobes("--run").stdout, done.stdout, "what is there is not run again")
 
     def test_a_tree_without_maps_is_an_error(self):
         done = self.collect()

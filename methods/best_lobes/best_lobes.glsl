@@ -1,0 +1,84 @@
+// The best lobes of every texel of the mip chain, summed over the texels of the footprint. A lobe is the base lobe about
+// an axis, widened by a slope variance, then stretched to a covariance over the stereographic plane.
+
+struct Peak {
+  vec3 axis;
+  float deviation;  // of slopes; below 0: none over the footprint's own base lobe
+  vec3 spread;      // xx, xy, yy over the plane
+  float factor;     // of the weights of a texel
+  float weight;
+};
+
+//? if normal_variation
+const int peaks = int(option_k);
+//? else
+const int peaks = 1;
+//? end
+
+//? include summed_peaks.glsl
+//? include stretched_part.glsl
+
+//? if normal_variation
+ivec2 peakMapSize() { return textureSize(best_lobes_first, 0).xy; }
+
+// The finest level has one lobe per texel, so the other layers start at the next level.
+Peak peakOf(FootprintTexel texel, int i) {
+  bool finest = texel.level < 0.5;
+  FootprintTexel above = texel;
+  above.level -= 1.0;
+  vec4 stored;
+  if (i == 0) {
+    stored = fetchTexel(best_lobes_first, 0, texel);
+  } else {
+    stored = fetchTexel(best_lobes_rest, i - 1, above);
+  }
+  vec4 spread = vec4(0.0);
+  if (!finest) spread = fetchTexel(best_lobes_rest, peaks - 1 + i, above);
+  // Texels without a fit have no factor.
+  return Peak(directionFromDisc(stored.xy), stored.z, spread.xyz, spread.w > 0.0 ? spread.w : 1.0, stored.w);
+}
+//? end
+
+vec3 meanOfNormals(Footprints f) {
+//? if normal_variation and diffuse
+  return fetch(best_lobes_mean, f.normal).xyz;
+//? else
+  return vec3(0.0, 0.0, 1.0);
+//? end
+}
+
+// Stereographic coordinates of an axis.
+vec2 planeOf(vec3 axis) { return axis.xy / max(1.0 + axis.z, 1e-3); }
+
+Peak upPeak() { return Peak(vec3(0.0, 0.0, 1.0), -1.0, vec3(0.0), 1.0, 1.0); }
+
+// Where texels have base lobes of their own, a lobe is over the narrowest of the material and has the energy of its
+// width. Elsewhere it has the energy of the base lobe.
+Part partOf(Effective e, Peak peak) {
+  float deviation = max(peak.deviation, 0.0);
+//? if normal_variation and roughness_variation
+  if (best_lobes_joint > 0.5 && peak.deviation >= 0.0) {
+    float own = best_lobes_narrowest + deviation * deviation;
+    return stretchedPart(peak.factor, planeOf(peak.axis), peak.spread, lobeFromVariance(own), own);
+  }
+//? end
+  float variance = e.variance + deviation * deviation;
+  float width = lobeFromVariance(variance);
+  float energy = lobeEnergy(lobeFromVariance(e.variance)) / lobeEnergy(width);
+  return stretchedPart(energy, planeOf(peak.axis), peak.spread, width, variance);
+}
+
+float peakDensity(Effective e, Peak peak, vec3 h) { return partDensity(partOf(e, peak), directionOf(h)); }
+
+// The geometry factor is that of single facets about the lobe's axis.
+float peakReflectance(Effective e, Peak peak, vec3 h, vec3 wi, vec3 wo) {
+  return peakDensity(e, peak, h) * geometryFactor(lobeFromVariance(e.variance), peak.axis, h, wi, wo);
+}
+
+//? if environment_light
+NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share) {
+  NormalLobe lobe = baseNormalLobe(peak.axis, lobeFromVariance(partOf(e, peak).breadth), share);
+  lobe.base = lobeFromVariance(e.variance);
+  return lobe;
+}
+//? end

@@ -1,0 +1,37 @@
+// Where fits of lobes start: clusters of the normals, and what EM makes of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "methods/best_lobes/lobe_shapes.hpp"
+#include "methods/fournier/peaks.hpp"
+
+namespace footprint::best_lobes {
+
+/// A pooled normal in stereographic coordinates.
+struct PlaneNormal {
+  double weight;
+  Eigen::Vector2d at;  ///< normals below the horizon are moved onto it
+  double spread;       ///< slope variance
+};
+
+/// Weights sum to 1.
+[[nodiscard]] std::vector<PlaneNormal> plane_normals(std::span<const fournier::Peak> target);
+
+/// A lobe of a spread (xx, xy, yy) over the plane; a round one has its mean.
+[[nodiscard]] FittedLobe lobe_of_spread(double weight, const Eigen::Vector2d& mean, const Eigen::Vector3d& spread,
+                                        Shape shape);
+
+/// `count` clusters about k-means++ seeds (Arthur and Vassilvitskii 2007), drawn from `seed`.
+[[nodiscard]] std::vector<FittedLobe> clusters(const std::vector<PlaneNormal>& normals, std::size_t count,
+                                               const LobeFamily& family, std::uint64_t seed);
+
+/// EM of the normals, each blurred by the base lobe: the components' own spread is what is left of theirs.
+[[nodiscard]] std::vector<FittedLobe> by_em(const std::vector<PlaneNormal>& normals, std::vector<FittedLobe> lobes,
+                                            const LobeFamily& family);
+
+}  // namespace footprint::best_lobes

@@ -85,6 +85,7 @@ TEST_P(EveryMethod, KnowsLightFromBelowTheHorizonByTheScenesRule) {
 
 // Near a map that is flat where the camera looks.
 TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   Image normals = random_normals(64, 64, 0.5F, 2);
   for (int y = 24; y < 40; ++y) {
@@ -98,6 +99,7 @@ TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
 }
 
 TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   for (const BaseBrdf& brdf : some_brdfs(2)) {
     for (const float roughness : {0.0F, 1.0F}) {
       for (const float tilt : {0.0F, 0.999F}) {
@@ -115,6 +117,7 @@ TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
 // What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have
 // more lobes, change nothing.
 TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
@@ -127,6 +130,7 @@ TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
 }
 
 TEST_P(EveryMethod, IsDeterministic) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   const Scene scene = square_scene(random_normals(64, 48, 0.5F, 4), {});
   EXPECT_EQ(TestRenderer(scene).frame(*GetParam()), TestRenderer(scene).frame(*GetParam()));
   const EffectSet set = effects_on(derive_effects(scene));
@@ -145,6 +149,7 @@ double mean_of_colours(const Image& picture) {
 // At its finest level a method shades texels: it is then the base BRDF, except for what its representation cannot
 // store. One that knows no texels has at least their mean.
 TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   TestRenderer& renderer = shared_renderer("random", [] { return square_scene(random_normals(64, 64, 0.5F, 5), {}); });
   static const Image reference = renderer.reference(64).mean;  // the same for all methods
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
@@ -156,6 +161,7 @@ TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
 }
 
 TEST_P(EveryMethod, TakesAnisotropicProbes) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 6), {}));
   const Image isotropic = renderer.frame(*GetParam(), {}, {FootprintFilterKind::trilinear, 1});
   const Image probed = renderer.frame(*GetParam(), {}, {FootprintFilterKind::anisotropic, 8});

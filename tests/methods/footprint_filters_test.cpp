@@ -36,6 +36,7 @@ class FootprintFilters : public ::testing::TestWithParam<const Method*> {
 };
 
 TEST_P(FootprintFilters, OnePartIsTheWhole) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   TestRenderer& renderer = shared_renderer("receding", receding_square, {24, 24});
   const Image whole = renderer.frame(*GetParam(), {}, filter_of("trilinear"));
   for (const char* const text : some(std::array{"shaded:1", "box:1", "anisotropic:1"}, 1))
@@ -44,6 +45,7 @@ TEST_P(FootprintFilters, OnePartIsTheWhole) {
 
 // For every method: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
 TEST_P(FootprintFilters, PartsConvergeToTheReference) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
   TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel", scene, {16, 16});

@@ -22,6 +22,7 @@ class StochasticFilters : public ::testing::TestWithParam<const Method*> {};
 // Pixels of 8 x 8 texels: draws of the finest level leave nothing to prefilter, so every method converges to the
 // reference that filters after shading. 256 draws have a sixteenth of the error of one.
 TEST_P(StochasticFilters, ConvergeToTheReference) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
   TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel, drawn", scene, {16, 16});

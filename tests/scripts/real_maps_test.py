@@ -117,7 +117,7 @@ class RealMaps(unittest.TestCase):
         self.assertEqual(rows["method"], ["bytes", "`trilinear`, 2 maps"])
         self.assertEqual(rows["direct"][1], "1 (1 to 1)")
         errors = {method: float(cells[1].split()[0]) for method, cells in rows.items() if cells[1].endswith(")")}
-        self.assertEqual(len(errors), 42)
+        self.assertEqual(len(errors), 48)
         self.assertLess(errors["tan_gmm:n=8"], errors["naive_mip"])
         self.assertRegex(done.stdout, r"`tan_gmm:n=4` has [\d.]+ \([\d.]+ to [\d.]+\)\s+of\s+the\s+error\s+of\s+`lean`")
         self.assertIn("## Held-out maps\n\nNot run.", done.stdout)
@@ -139,9 +139,9 @@ class RealMaps(unittest.TestCase):
         done = fitted()
         self.assertEqual(done.returncode, 0, done.stderr)
         model = json.loads(done.stdout)
-        self.assertEqual(len(model["methods"]), 42)
+        self.assertEqual(len(model["methods"]), 48)
         own = model["calibration"][0]
-        self.assertEqual((own["scenes"], own["predictions"]), (2, 2 * 42 * 4))
+        self.assertEqual((own["scenes"], own["predictions"]), (2, 2 * 48 * 4))
         # Nine weights describe the eight errors that they were fitted on.
         self.assertLess(own["median_factor"], 1.2)
         self.assertGreater(own["order_right"], 0.8)

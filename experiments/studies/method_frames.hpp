@@ -36,6 +36,6 @@ class MethodFrames {
 };
 
 /// A frame of a method in a view, or what a history of that view alone shows.
-[[nodiscard]] Image image_of(const StagedMethod& method, const View& view, const HistorySettings& history);
+[[nodiscard]] Image image_of(const StagedMethod& method, const View& view, const HistorySettings& settings);
 
 }  // namespace footprint

@@ -161,7 +161,7 @@ TEST(History, NeitherBlursNorTrails) {
     View view{.size = {64, 64}, .camera = scene.camera};
     const Image first = frames.render(view);
     for (int i = 0; i < 12; ++i) {
-      const float step = static_cast<float>(i);
+      const auto step = static_cast<float>(i);
       view.camera.world =
           zooms ? glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, 0.03F * step}) * scene.camera.world
                 : glm::rotate(glm::mat4(1.0F), 0.013F * step, glm::vec3(0.3F, 0.2F, 1.0F)) * scene.camera.world;

@@ -99,32 +99,10 @@ TEST(CellsColour, BlackIsBlack) {
   for (const glm::dvec3& v : black.specular(cells_method(), joint, directions)) EXPECT_EQ(v, glm::dvec3(0.0));
 }
 
-// The diffuse term has the mean normal by area, though the dark wall weighs a tenth in the highlight.
-TEST(CellsColour, DiffuseLightWeighsByArea) {
-  const ColouredLobes walls = coloured_walls(0.4F, glm::vec3(0.8F), glm::vec3(0.08F));
-  const Material material = walls.material();
-  ProbedMethod probed{.method = &cells_method(), .material = &material, .options = joint};
-  probed.effects.set(static_cast<std::size_t>(Effect::specular_variation));
-  const std::array<std::array<glm::vec4, 3>, 1> input{};
-  const glm::vec3 mean(probe_method(probed, "return vec4(e.mean_normal, 0.0);", input)[0]);
-  EXPECT_LT(glm::length(mean - glm::vec3(0.0F, 0.0F, 1.0F / std::sqrt(1.16F))), 1e-6F);
-}
+TEST(CellsColour, DiffuseLightWeighsByArea) { expect_diffuse_light_by_area(cells_method(), joint); }
 
-// Colours that lie elsewhere are not joined: a note, and the lobes of `separate`.
 TEST(CellsColour, ColoursThatLieElsewhereAreFilteredOnTheirOwn) {
-  const ColouredLobes walls = coloured_walls(0.4F, red, blue);
-  Material material = walls.material();
-  material.specular_map->coordinates.set = 1;
-  EffectSet effects = ProbedMethod::default_effects();
-  effects.set(static_cast<std::size_t>(Effect::specular_variation));
-  const auto baked = [&](const Words& words) {
-    return cells_method().precompute(material, Options(cells_method().info.options, words, "cells"), effects,
-                                     no_progress);
-  };
-  const Prefiltered own = baked(joint);
-  ASSERT_EQ(own.notes.size(), 1U);
-  EXPECT_NE(own.notes[0].find("cannot be joined"), std::string::npos);
-  EXPECT_EQ(own.textures[0], baked(separate).textures[0]);
+  expect_separate_where_colours_lie_elsewhere(cells_method(), joint, separate);
 }
 
 }  // namespace

@@ -120,34 +120,17 @@ TEST(TanGmmColour, DarkAndBlackFootprintsAreDefined) {
   for (const glm::dvec3& v : black.specular(tan_gmm_method(), together, directions)) EXPECT_EQ(v, glm::dvec3(0.0));
 }
 
-// The diffuse term has the mean normal by area, though the dark wall weighs a tenth in the highlight.
 TEST(TanGmmColour, DiffuseLightWeighsByArea) {
-  const ColouredLobes walls = coloured_walls(0.4F, glm::vec3(0.8F), glm::vec3(0.08F));
-  const Material material = walls.material();
-  const std::array<std::array<glm::vec4, 3>, 1> input{};
   for (const char* const covariance : {"isotropic", "full"}) {
-    ProbedMethod probed{.method = &tan_gmm_method(), .material = &material, .options = together};
-    probed.options["covariance"] = covariance;
-    probed.effects.set(static_cast<std::size_t>(Effect::specular_variation));
-    const glm::vec3 mean(probe_method(probed, "return vec4(e.mean_normal, 0.0);", input)[0]);
-    EXPECT_LT(glm::length(mean - glm::vec3(0.0F, 0.0F, 1.0F / std::sqrt(1.16F))), 1e-6F) << covariance;
+    SCOPED_TRACE(covariance);
+    Chosen words = together;
+    words["covariance"] = covariance;
+    expect_diffuse_light_by_area(tan_gmm_method(), words);
   }
 }
 
 TEST(TanGmmColour, ColoursThatLieElsewhereAreFilteredOnTheirOwn) {
-  const ColouredLobes walls = coloured_walls(0.4F, glm::vec3(0.8F), glm::vec3(0.08F));
-  Material material = walls.material();
-  material.specular_map->coordinates.set = 1;
-  EffectSet effects = ProbedMethod::default_effects();
-  effects.set(static_cast<std::size_t>(Effect::specular_variation));
-  const auto baked = [&](const Chosen& words) {
-    return tan_gmm_method().precompute(material, Options(tan_gmm_method().info.options, words, "tan_gmm"), effects,
-                                       no_progress);
-  };
-  const Prefiltered own = baked(together);
-  ASSERT_EQ(own.notes.size(), 1U);
-  EXPECT_NE(own.notes[0].find("cannot be joined"), std::string::npos);
-  EXPECT_EQ(own.textures[0], baked(apart).textures[0]);
+  expect_separate_where_colours_lie_elsewhere(tan_gmm_method(), together, apart);
 }
 
 }  // namespace

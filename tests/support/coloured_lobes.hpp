@@ -100,4 +100,31 @@ struct ColouredLobes {
   return out;
 }
 
+/// Colours that lie elsewhere are not joined: a note, and the lobes of the `separate` options.
+inline void expect_separate_where_colours_lie_elsewhere(const Method& method,
+                                                        const std::map<std::string, std::string>& joint,
+                                                        const std::map<std::string, std::string>& separate) {
+  Material material = coloured_walls(0.4F, glm::vec3(0.8F), glm::vec3(0.08F)).material();
+  material.specular_map->coordinates.set = 1;
+  EffectSet effects = ProbedMethod::default_effects();
+  effects.set(static_cast<std::size_t>(Effect::specular_variation));
+  const auto baked = [&](const std::map<std::string, std::string>& words) {
+    return method.precompute(material, Options(method.info.options, words, method.info.name), effects, no_progress);
+  };
+  const Prefiltered own = baked(joint);
+  ASSERT_EQ(own.notes.size(), 1U);
+  EXPECT_NE(own.notes[0].find("cannot be joined"), std::string::npos);
+  EXPECT_EQ(own.textures[0], baked(separate).textures[0]);
+}
+
+/// The diffuse term has the mean normal by area, though the dark wall weighs a tenth in the highlight.
+inline void expect_diffuse_light_by_area(const Method& method, const std::map<std::string, std::string>& joint) {
+  const Material material = coloured_walls(0.4F, glm::vec3(0.8F), glm::vec3(0.08F)).material();
+  ProbedMethod probed{.method = &method, .material = &material, .options = joint};
+  probed.effects.set(static_cast<std::size_t>(Effect::specular_variation));
+  const std::array<std::array<glm::vec4, 3>, 1> input{};
+  const glm::vec3 mean(probe_method(probed, "return vec4(e.mean_normal, 0.0);", input)[0]);
+  EXPECT_LT(glm::length(mean - glm::vec3(0.0F, 0.0F, 1.0F / std::sqrt(1.16F))), 1e-6F);
+}
+
 }  // namespace footprint::testing

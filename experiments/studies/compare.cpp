@@ -28,7 +28,8 @@ namespace {
 // no strips, but two frames.
 int images_at_once(const RunSettings& settings) {
   const int methods = static_cast<int>(settings.methods.size());
-  return is_animation(settings) ? 2 * methods + 28 : 6 * methods + 15;
+  const int history = settings.history.frames > 0 ? 3 : 0;  // of each method: two targets and their depths
+  return is_animation(settings) ? (2 + history) * methods + 28 : (6 + history) * methods + 15;
 }
 
 double weight_of_methods(const RunSettings& settings) {

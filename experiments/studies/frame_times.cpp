@@ -55,7 +55,7 @@ bool is_ratio_known(const std::vector<double>& times, const std::vector<double>&
 DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,
                            const Progress& progress) {
   std::vector<DrawFrame> draws;
-  std::optional<History> history;  // of any method's frames: its cost does not depend on what they show
+  std::optional<History> history;  // of any method's frames, of a camera that does not move
   if (settings.history.frames > 0) history.emplace(view.size, settings.history);
   for (const StagedMethod& staged : stage.methods()) {
     draws.emplace_back([&] {

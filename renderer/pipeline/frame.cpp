@@ -44,11 +44,10 @@ void FrameRenderer::draw_tile(const View& view, const Tile& tile, const glm::dve
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer());
   gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
   clear_target();
-  const auto draws = static_cast<std::uint32_t>(footprint_.count);
   program_.draw(*scene_, *method_, view, tile_matrix(view, tile, offset),
                 {.origin = tile.origin,
                  .seed = half_seed(view.seed, 0),
-                 .first = view.frame * draws,
+                 .first = view.frame * static_cast<std::uint32_t>(footprint_.count),
                  .draws = is_stochastic(footprint_) ? footprint_.count : 1});
 }
 

@@ -20,7 +20,7 @@ vec3 drawnTexel(vec2 size, vec2 uv, float level, vec2 draw, float level_draw) {
 }
 
 // The footprint that covers one texel.
-Footprint textureArea(vec2 size, vec3 texel) {
+Footprint areaOfTexel(vec2 size, vec3 texel) {
   vec2 width = 1.0 / levelSize(ivec2(size), int(texel.z));
   return Footprint(texel.xy, vec2(width.x, 0.0), vec2(0.0, width.y));
 }
@@ -57,21 +57,20 @@ FootprintPart partOf(Footprint f, int i) {
 //? if filter_stochastic_trilinear
   vec2 at = vec2(0.0);
   float width = 1.0;
-  vec3 texel = drawnTexel(size, f.uv, levelOfEdges(size, f.dx, f.dy), texel_draw, level_draw);
-  texel = texelWithin(size, texel, place);
 //? else
   float width = footprint_depth < 0 ? 0.0 : exp2(-float(footprint_depth));
   vec2 at = drawnPlace(place, width);
-  Footprint under = placed(f, at, vec2(width, 0.0), vec2(0.0, width));
+//? end
+  vec2 dx = vec2(width, 0.0);
+  vec2 dy = vec2(0.0, width);
+  Footprint under = placed(f, at, dx, dy);
   vec3 texel = drawnTexel(size, under.uv, levelOfEdges(size, under.dx, under.dy), texel_draw, level_draw);
+//? if filter_stochastic_trilinear
+  texel = texelWithin(size, texel, place);
 //? end
   mat2 edges = mat2(f.dx, f.dy);
-  if (size == vec2(1.0) || abs(determinant(edges)) < 1e-24) {
-    vec2 dx = vec2(width, 0.0);
-    vec2 dy = vec2(0.0, width);
-    return FootprintPart(at, dx, dy, placed(f, at, dx, dy));
-  }
-  Footprint normal = textureArea(size, texel);
+  if (size == vec2(1.0) || abs(determinant(edges)) < 1e-24) return FootprintPart(at, dx, dy, under);
+  Footprint normal = areaOfTexel(size, texel);
   mat2 to_pixel = inverse(edges);
   return FootprintPart(to_pixel * (normal.uv - f.uv), to_pixel * normal.dx, to_pixel * normal.dy, normal);
 }

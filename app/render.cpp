@@ -55,7 +55,7 @@ Image render_picture(const Stage& stage, double distance, const RunSettings& run
   const ReferenceSettings& reference = run.reference;
   const View view = stage.view(distance);
   Image picture = stage.methods().empty() ? stage.reference().render(view, reference.spp, reference.seed, progress).mean
-                                          : image_of(stage.methods().front(), view, run.history);
+                                          : image_of(stage.methods().front(), view);
   stage.context().check("rendering");
   return picture;
 }

@@ -165,7 +165,6 @@ class Parser {
       case Selector::scene:
       case Selector::size:
       case Selector::filter:
-      case Selector::history:
       case Selector::seed:
         return !value.empty() && measure.slice.emplace(selector_name(selector), value).second;
       case Selector::footprint:

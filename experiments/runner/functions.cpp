@@ -277,11 +277,11 @@ Measured quantity_figure(const Measure& measure, const std::string& method, std:
 
 std::vector<FigureFunction> function_table() {
   using enum Selector;
-  const std::vector<Selector> records{distance, frame, scene, size, filter, history, seed};
-  const std::vector<Selector> on_gpu{distance, frame, scene, size, filter, history, seed, gpu};
+  const std::vector<Selector> records{distance, frame, scene, size, filter, seed};
+  const std::vector<Selector> on_gpu{distance, frame, scene, size, filter, seed, gpu};
   return {
       {"error",
-       {distance, frame, spp, scene, size, filter, history, seed},
+       {distance, frame, spp, scene, size, filter, seed},
        its_reference,
        over_samples(error_sample, "no record has this figure")},
       {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
@@ -322,7 +322,7 @@ std::vector<FigureFunction> function_table() {
        over_times([](const Record& r) { return r.frame_build_ms ? Figure(*r.frame_build_ms) : Figure(); })},
       {"shading", records, nothing, over_times(shading_ms)},
       {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
-      {"supersampling_time", {distance, spp, scene, size, filter, history, seed}, a_timed_count, supersampling_ms},
+      {"supersampling_time", {distance, spp, scene, size, filter, seed}, a_timed_count, supersampling_ms},
       {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
       {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns)},
       {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions)},
@@ -333,10 +333,10 @@ std::vector<FigureFunction> function_table() {
       {"bytes", records, nothing,
        over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
       {"bytes_per_texel", records, nothing, over_records([](const Record& r) { return r.precompute_bytes_per_texel; })},
-      {"ndf_l2", {footprint, scene, size, history, seed}, a_footprint, over_footprints(&FootprintNdf::l2)},
-      {"ndf_energy", {footprint, scene, size, history, seed}, a_footprint, over_footprints(&FootprintNdf::energy)},
-      {"ndf_peak", {footprint, scene, size, history, seed}, a_footprint, over_footprints(&FootprintNdf::peak)},
-      {"quantity", {name, scene, size, filter, history, seed}, a_quantity, quantity_figure}};
+      {"ndf_l2", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::l2)},
+      {"ndf_energy", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::energy)},
+      {"ndf_peak", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::peak)},
+      {"quantity", {name, scene, size, filter, seed}, a_quantity, quantity_figure}};
 }
 
 }  // namespace
@@ -356,8 +356,6 @@ std::string_view selector_name(Selector selector) {
     case Selector::filter:
     case Selector::footprint:
       return "footprint";
-    case Selector::history:
-      return "history";
     case Selector::seed:
       return "seed";
     case Selector::gpu:

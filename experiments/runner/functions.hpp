@@ -25,7 +25,6 @@ enum class Selector {
   scene,  ///< this and the next four: of the members of a matrix those that have the value on that axis
   size,
   filter,  ///< written "footprint": the footprint filter
-  history,
   seed,
   footprint,  ///< of an effective NDF
   name,

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/history_options.hpp"
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -28,11 +28,8 @@ struct AxisSource {
   std::string_view key, table;  // of the setting
 };
 
-constexpr std::array<AxisSource, 5> axis_sources{{{"scene", "experiment"},
-                                                  {"size", "experiment"},
-                                                  {"footprint", "experiment"},
-                                                  {"history", "experiment"},
-                                                  {"seed", "reference"}}};
+constexpr std::array<AxisSource, 4> axis_sources{
+    {{"scene", "experiment"}, {"size", "experiment"}, {"footprint", "experiment"}, {"seed", "reference"}}};
 
 const Setting& setting_of(std::string_view key) {
   const AxisSource& source = *std::ranges::find(axis_sources, key, &AxisSource::key);
@@ -106,7 +103,7 @@ void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
   std::vector<MethodSpec> all;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     for (const std::string& text : variants[i]) {
-      at_key(matrix, "options", [&] { all.push_back(parse_known_methods(text).front()); });
+      at_key(matrix, "options", [&] { all.push_back(parse_methods_with_histories(text).front()); });
       if (std::ranges::count(all, all.back().text, &MethodSpec::text) > 1)
         throw matrix.error_at("options", fmt::format("makes `{:.80}` twice", text), "give each value once");
     }
@@ -119,7 +116,7 @@ void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
 
 // The name of a value in a folder's name; of a path only its distinctive part.
 std::string value_name(const std::string& key, const std::string& value) {
-  if (key == "seed" || key == "history") return key + value;
+  if (key == "seed") return key + value;
   if (key != "scene") return value;
   const fs::path path(value);
   if (path.filename() == "scene.toml") return path.parent_path().filename().string();

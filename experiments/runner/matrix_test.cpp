@@ -11,6 +11,7 @@
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/judge.hpp"
+#include "experiments/settings/history_options.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
@@ -92,16 +93,18 @@ TEST_F(MatrixFile, MethodsAreMultipliedByTheirOptions) {
   EXPECT_TRUE(experiment.axes.empty()) << "one run: no members";
 }
 
-TEST_F(MatrixFile, HistoriesAreAnAxis) {
-  const Experiment experiment =
-      read(no_scene + "scene = \"bumps\"\nhistory_clamp = \"box\"\n[matrix]\nhistory = [0, 24]\n" +
-           claim("error(direct, history=24) < error(tan_gmm, history=0)"));
-  const std::vector<Experiment> members = members_of_matrix(experiment);
-  ASSERT_EQ(members.size(), 2U);
-  EXPECT_EQ(members.back().name, "history24");
-  EXPECT_EQ(members.back().run.history.frames, 24);
-  EXPECT_EQ(members.back().run.history.clamp, HistoryClamp::box);
-  expect_complaint(no_scene + "scene = \"bumps\"\n[matrix]\nhistory = [0, -1]\n", "mine.toml:", "history");
+TEST_F(MatrixFile, HistoriesAreOptionsOfMethods) {
+  const Experiment experiment = read(no_scene + "scene = \"bumps\"\nhistory_clamp = \"box\"\n[matrix.options]\n" +
+                                     "direct = { history = [0, 24], history_alpha = [0.2] }\n" +
+                                     claim("error(direct:history=24:history_alpha=0.2) < 1"));
+  const std::vector<std::string> expected{"direct:history=0:history_alpha=0.2", "direct:history=24:history_alpha=0.2",
+                                          "tan_gmm"};
+  ASSERT_EQ(texts_of(experiment.run.methods), expected);
+  const HistorySettings history = history_of(experiment.run.methods[1], experiment.run.history);
+  EXPECT_EQ(history, (HistorySettings{.frames = 24, .alpha = 0.2, .clamp = HistoryClamp::box}));
+  EXPECT_EQ(count_histories(experiment.run), 1U);
+  expect_complaint(no_scene + "scene = \"bumps\"\n[matrix.options]\ndirect = { history = [-1] }\n",
+                   "mine.toml:", "history of method direct");
 }
 
 TEST_F(MatrixFile, IsRefusedAtItsLineBeforeAnythingIsRendered) {

@@ -8,9 +8,13 @@
 
 namespace footprint {
 
+void check_known(std::span<const MethodSpec> methods) {
+  for (const MethodSpec& method : methods) (void)options_of(find_method(method.name), method);
+}
+
 std::vector<MethodSpec> parse_known_methods(const std::string& text) {
   std::vector<MethodSpec> methods = parse_methods(text);
-  for (const MethodSpec& method : methods) (void)options_of(find_method(method.name), method);
+  check_known(methods);
   return methods;
 }
 

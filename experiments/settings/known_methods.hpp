@@ -10,8 +10,10 @@
 
 namespace footprint {
 
-/// Comma-separated methods with their options, checked before anything is loaded. Errors (usage): unknown method or
-/// option, with the nearest name.
+/// Errors (usage): unknown method or option, with the nearest name.
+void check_known(std::span<const MethodSpec> methods);
+
+/// Comma-separated methods with their options, checked before anything is loaded. Errors (usage): those of check_known.
 [[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
 
 /// The methods as they were written.

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "experiments/settings/known_methods.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/gpu_cost/chips.hpp"
 
@@ -126,9 +125,9 @@ std::optional<Exposure> parse_exposure(std::string_view option, std::string_view
                   .source = option.empty() ? ExposureSource::experiment : ExposureSource::command_line};
 }
 
-MethodSpec parse_one_method(std::string_view option, const std::string& text) {
+MethodSpec parse_one_method(std::string_view option, const std::string& text, MethodParser parse) {
   if (text == "reference") return {.text = text, .name = text, .options = {}};
-  const std::vector<MethodSpec> methods = parse_known_methods(text);
+  const std::vector<MethodSpec> methods = parse(text);
   if (methods.size() == 1) return methods.front();
   throw not_valid(option, text, "is more than one method", "name one");
 }
@@ -307,15 +306,15 @@ SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
           .text = [=](RunSettings run) { return field(run) ? footprint_filter_text(*field(run)) : ""; }};
 }
 
-SettingType one_method(Field<std::vector<MethodSpec>> field) {
+SettingType one_method(Field<std::vector<MethodSpec>> field, MethodParser parse) {
   return {.word = "M",
           .takes = "name or name:option=value",
           .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = {parse_one_method(option, text)}; },
+                           const std::string& text) { field(run) = {parse_one_method(option, text, parse)}; },
           .text = methods(field).text};
 }
 
-SettingType methods(Field<std::vector<MethodSpec>> field) {
+SettingType methods(Field<std::vector<MethodSpec>> field, MethodParser parse) {
   return {.word = "LIST",
           .takes = "name or name:option=value each, comma-separated",
           .file_takes =
@@ -323,7 +322,7 @@ SettingType methods(Field<std::vector<MethodSpec>> field) {
           .read_text =
               [=](RunSettings& run, std::string_view option, const std::string& text) {
                 const bool are_all = option.empty() && text == "all";  // in files
-                field(run) = are_all ? every_method() : parse_known_methods(text);
+                field(run) = are_all ? every_method() : parse(text);
               },
           .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(texts_of(field(run)), ",")); },
           .separator = ','};

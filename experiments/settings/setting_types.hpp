@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 
 namespace footprint::setting_types {
@@ -67,11 +68,14 @@ using Field = Value& (*)(RunSettings& run);
 /// A footprint filter.
 [[nodiscard]] SettingType footprint_filter(Field<std::optional<FootprintFilter>> field);
 
+/// Reads comma-separated methods, and checks them.
+using MethodParser = std::vector<MethodSpec> (*)(const std::string& text);
+
 /// One method, or `reference`.
-[[nodiscard]] SettingType one_method(Field<std::vector<MethodSpec>> field);
+[[nodiscard]] SettingType one_method(Field<std::vector<MethodSpec>> field, MethodParser parse = parse_known_methods);
 
 /// Methods; in a file also "all".
-[[nodiscard]] SettingType methods(Field<std::vector<MethodSpec>> field);
+[[nodiscard]] SettingType methods(Field<std::vector<MethodSpec>> field, MethodParser parse = parse_known_methods);
 
 /// A set of effects, by name.
 [[nodiscard]] SettingType effects(Field<EffectSet> field);

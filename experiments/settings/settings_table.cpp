@@ -1,6 +1,7 @@
 // The table of a run's settings: a new one is a field of RunSettings and a row here (docs/adding-an-option.md).
 #include <limits>
 
+#include "experiments/settings/history_options.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/settings/setting_types.hpp"
 
@@ -71,9 +72,14 @@ std::vector<Setting> scene_settings() {
        .help = "material variant of the model file (KHR_materials_variants), by name or number from 0",
        .otherwise = "the file's own materials"},
       {.option = "--methods",
-       .commands = {"compare", "cost"},
-       .type = methods(all_of),
+       .commands = {"compare"},
+       .type = methods(all_of, parse_methods_with_histories),
        .help = "methods to compare",
+       .start = "direct,naive_mip,toksvig"},
+      {.option = "--methods",
+       .commands = {"cost"},
+       .type = methods(all_of),
+       .help = "methods whose cost is estimated",
        .start = "direct,naive_mip,toksvig"},
       {.option = "--methods",
        .commands = {"recommend"},
@@ -82,12 +88,12 @@ std::vector<Setting> scene_settings() {
        .start = "direct,naive_mip,toksvig,roughness_bake,lean,leadr,tan_gmm"},
       {.option = "--methods,--method",
        .commands = {"animate"},
-       .type = methods(all_of),
+       .type = methods(all_of, parse_methods_with_histories),
        .help = "methods to render",
        .required = true},
       {.option = "--method",
        .commands = {"render"},
-       .type = one_method(all_of),
+       .type = one_method(all_of, parse_methods_with_histories),
        .help = "method, or `reference`",
        .required = true},
       {.option = "--method",
@@ -112,7 +118,7 @@ std::vector<Setting> scene_settings() {
        .otherwise = "all that can show the material, except slow ones"},
       {.table = "experiment",
        .key = "methods",
-       .type = methods(all_of),
+       .type = methods(all_of, parse_methods_with_histories),
        .help = "methods to compare",
        .required = true},
       {.option = "--without",
@@ -242,37 +248,21 @@ std::vector<Setting> view_settings() {
   };
 }
 
+// The history of all methods: `--history-alpha` for the option `history_alpha` of one of them.
 std::vector<Setting> history_settings() {
-  return {
-      {.option = "--history",
-       .commands = with_a_history,
-       .table = "experiment",
-       .key = "history",
-       .type = whole_number([](Run& run) -> int& { return run.history.frames; }, 0, 1024),
-       .help = "frames of the first view, or of each distance, that are accumulated before an image is shown; later "
-               "frames of "
-               "a path are added to them (docs/temporal.md); 0: no history"},
-      {.option = "--history-alpha",
-       .commands = with_a_history,
-       .table = "experiment",
-       .key = "history_alpha",
-       .type = positive_number([](Run& run) -> double& { return run.history.alpha; }, 0.001, 1),
-       .help = "share of the newest frame in a history"},
-      {.option = "--history-clamp",
-       .commands = with_a_history,
-       .table = "experiment",
-       .key = "history_clamp",
-       .type = one_word([](Run& run) -> HistoryClamp& { return run.history.clamp; }, history_clamps, "clamp"),
-       .help = "limits of a history from the 3 x 3 pixels of the newest frame: none, their range, or also one "
-               "deviation from "
-               "their mean"},
-      {.option = "--history-jitter",
-       .commands = with_a_history,
-       .table = "experiment",
-       .key = "history_jitter",
-       .type = one_word([](Run& run) -> bool& { return run.history.jitter; }, switch_words, "switch"),
-       .help = "whether the samples of a history's frames move within the pixels"},
-  };
+  static const std::array<std::string_view, 4> options{"--history", "--history-alpha", "--history-clamp",
+                                                       "--history-jitter"};
+  std::vector<Setting> settings;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const auto& [name, type, help] = history_options()[i];
+    settings.push_back({.option = options[i],
+                        .commands = with_a_history,
+                        .table = "experiment",
+                        .key = name,
+                        .type = type,
+                        .help = help});
+  }
+  return settings;
 }
 
 std::vector<Setting> reference_settings() {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "experiments/settings/history_options.hpp"
 #include "experiments/studies/distance_result.hpp"
 #include "experiments/studies/method_frames.hpp"
 #include "experiments/studies/method_record.hpp"
@@ -28,8 +29,8 @@ namespace {
 // no strips, but two frames.
 int images_at_once(const RunSettings& settings) {
   const int methods = static_cast<int>(settings.methods.size());
-  const int history = settings.history.frames > 0 ? 3 : 0;  // of each method: two targets and their depths
-  return is_animation(settings) ? (2 + history) * methods + 28 : (6 + history) * methods + 15;
+  const int histories = 3 * static_cast<int>(count_histories(settings));  // two targets and their depths
+  return histories + (is_animation(settings) ? 2 * methods + 28 : 6 * methods + 15);
 }
 
 double weight_of_methods(const RunSettings& settings) {
@@ -278,7 +279,9 @@ void add_flicker(std::vector<Record>& records, const FrameBefore& before, const 
     if (images[m].texels.empty() || before.images[m].texels.empty()) continue;
     std::optional<Flicker>& flicker = records[m].flicker;
     flicker = flicker_between(before.images[m], images[m], before.target.reference, target.reference, exposure);
-    if (flicker) flicker->causes = flicker_causes(before.images[m], images[m], before.target, target, exposure);
+    if (!flicker) continue;
+    flicker->causes = flicker_causes(before.images[m], images[m], before.target, target, exposure);
+    if (records[m].history) flicker->causes.filter = flicker->causes.method = {};  // it has no footprint filter
   }
 }
 
@@ -392,7 +395,8 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
     const BakedMethod& baked = stage.methods()[m].baked();
     for (std::size_t i = 0; i < baked.materials.size(); ++i) {
       for (const std::string& note : baked.materials[i].notes)
-        warnings.push_back(fmt::format("{}, material {}: {}", baked.spec.text, stage.scene().materials[i].name, note));
+        warnings.push_back(
+            fmt::format("{}, material {}: {}", stage.methods()[m].text(), stage.scene().materials[i].name, note));
     }
   }
 }
@@ -404,14 +408,6 @@ std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& sce
   const glm::dvec3 axis = turning_axis(settings.path, scene);
   way.axis = {axis.x, axis.y, axis.z};
   return way;
-}
-
-std::optional<HistoryInfo> history_of(const HistorySettings& history) {
-  if (history.frames == 0) return {};
-  return HistoryInfo{.frames = history.frames,
-                     .alpha = history.alpha,
-                     .clamp = std::string(word_for(history_clamps, history.clamp)),
-                     .jitter = history.jitter};
 }
 
 ReferenceInfo reference_of(const RunSettings& settings, const EffectSet& effects) {
@@ -432,7 +428,6 @@ ComparisonHead head_of(Job& job) {
                       .scene = stage.info({}),
                       .reference = reference_of(settings, stage.effects()),
                       .footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded())),
-                      .history = history_of(settings.history),
                       .way = way_of(settings, stage.scene()),
                       .frames = static_cast<std::size_t>(settings.view.zoom.frames),
                       .timed_frames = settings.timing.repeats,

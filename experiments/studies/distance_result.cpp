@@ -50,7 +50,6 @@ Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>
   results.backend = head.backend;
   results.scene = head.scene;
   results.footprint = head.footprint;
-  results.history = head.history;
   results.way = head.way;
   const Exposure& exposure = views.front().exposure;
   results.scene.exposure = exposure.factor;

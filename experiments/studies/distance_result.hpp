@@ -36,7 +36,6 @@ struct ComparisonHead {
   SceneInfo scene;
   ReferenceInfo reference;  ///< as requested
   std::string footprint;
-  std::optional<HistoryInfo> history;                      ///< none: images are single frames
   std::optional<AnimationWay> way;                         ///< none: not an animation
   std::size_t frames = 0;                                  ///< of a path; 0: no path
   int timed_frames = 0;                                    ///< as TimingInfo has it
@@ -68,7 +67,6 @@ void fields(auto& archive, Is<ComparisonHead> auto& value) {
   archive("scene", value.scene);
   archive("reference", value.reference);
   archive("footprint", value.footprint);
-  archive("history", value.history);
   archive("way", value.way);
   archive("frames", value.frames);
   archive("timed_frames", value.timed_frames);

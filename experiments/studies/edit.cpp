@@ -199,13 +199,12 @@ class Editor {
   // The method's own stages by name, and `other` for what of the bake is none of them.
   BakedMethod timed_bake(const EffectSet& effects, std::vector<StageTime>& stages, const Progress& progress) const {
     StageClock clock;
-    const auto& [text, name, options] = method();
     const Progress report = clock.callback(progress);
-    BakedMethod baked = bake(find_method(name), method(), scene_, effects, report);
+    BakedMethod baked = bake(find_method(method().name), method(), scene_, effects, report);
     clock.stop();
     double other = baked.seconds;
     for (const StageTime& time : clock.times()) {
-      if (time.stage.starts_with(text + ": ")) continue;  // what bake itself reports of each material
+      if (time.stage.starts_with(method().text + ": ")) continue;  // what bake itself reports of each material
       stages.push_back(time);
       other -= time.seconds;
     }

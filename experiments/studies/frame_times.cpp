@@ -2,7 +2,10 @@
 #include "experiments/studies/frame_times.hpp"
 
 #include <algorithm>
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <memory>
 
 #include "renderer/core/process.hpp"
 #include "renderer/pipeline/history.hpp"
@@ -52,21 +55,34 @@ bool is_ratio_known(const std::vector<double>& times, const std::vector<double>&
   return ratio.high - ratio.low < narrow * ratio.median;
 }
 
+// A view whose camera turns by a fraction of a pixel in each frame, so that a history follows the surface.
+class MovingView {
+ public:
+  explicit MovingView(const View& view) : views_{view, view} {
+    constexpr float turn = 1e-4F;  // radians
+    views_[1].camera.world = glm::rotate(view.camera.world, turn, {0.0F, 1.0F, 0.0F});
+  }
+
+  const View& next() { return views_.at(++frames_ % 2); }
+
+ private:
+  std::array<View, 2> views_;
+  std::size_t frames_ = 0;
+};
+
+DrawFrame next_frame(const StagedMethod& staged, const View& view) {
+  if (staged.refusal()) return [] {};
+  if (staged.history().frames == 0) return [&] { staged.frames().draw(view); };
+  return
+      [&staged, moving = MovingView(view), history = std::make_shared<History>(view.size, staged.history())]() mutable {
+        history->add(staged.frames(), moving.next());
+      };
+}
+
 DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,
                            const Progress& progress) {
   std::vector<DrawFrame> draws;
-  std::optional<History> history;  // of any method's frames, of a camera that does not move
-  if (settings.history.frames > 0) history.emplace(view.size, settings.history);
-  for (const StagedMethod& staged : stage.methods()) {
-    draws.emplace_back([&] {
-      if (staged.refusal()) return;
-      if (history) {
-        history->add(staged.frames(), view);
-      } else {
-        staged.frames().draw(view);
-      }
-    });
-  }
+  for (const StagedMethod& staged : stage.methods()) draws.push_back(next_frame(staged, view));
   for (const StagedMethod& staged : stage.methods()) {
     if (!staged.refusal() && staged.gpu().has_frame_build())
       draws.emplace_back([&staged, &view] { staged.gpu().rebuild(view); });

@@ -126,7 +126,7 @@ void set_statistics(GpuCost& cost, const CompiledStage& stage) {
 
 // A method and its footprint filter, on which its programs depend.
 std::string name_of(const StagedMethod& method) {
-  return fmt::format("{}, {}", method.baked().spec.text, footprint_filter_text(method.filter()));
+  return fmt::format("{}, {}", method.text(), footprint_filter_text(method.filter()));
 }
 
 // The row of a method without figures.
@@ -177,7 +177,7 @@ MethodCosts GpuCosts::costs(const StagedMethod& method, const View& view, const 
 
 MethodCosts GpuCosts::own_costs(const StagedMethod& method, const View& view, const Progress& progress) {
   MethodCosts costs;
-  costs.method = method.baked().spec.text;
+  costs.method = method.text();
   const PixelTrips trips = pixel_trips(stage_.counting_frames(method, Counting::trips), view);
   costs.trips = {.probes = trips.probes, .lobes = trips.lobes, .rounds = trips.rounds};
   const FrameRenderer counting = stage_.counting_frames(method, Counting::work);

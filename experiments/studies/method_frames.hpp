@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "experiments/studies/stage.hpp"
@@ -10,7 +10,7 @@
 
 namespace footprint {
 
-/// Draws a stage's methods as the settings of its history say.
+/// Draws a stage's methods, each as the settings of its history say.
 class MethodFrames {
  public:
   MethodFrames(Stage& stage, const RunSettings& settings);
@@ -23,19 +23,18 @@ class MethodFrames {
  private:
   // The history of a method, and the number of views on the path that it contains.
   struct Sequence {
-    std::unique_ptr<History> history;
+    std::optional<History> history;
     std::size_t views = 0;
   };
 
   void add_view(Sequence& sequence, const StagedMethod& method, View view);
 
   Stage& stage_;
-  HistorySettings settings_;
   bool is_path_;
-  std::vector<Sequence> sequences_;  // empty without a history
+  std::vector<Sequence> sequences_;  // of each method
 };
 
 /// A frame of a method in a view, or what a history of that view alone shows.
-[[nodiscard]] Image image_of(const StagedMethod& method, const View& view, const HistorySettings& settings);
+[[nodiscard]] Image image_of(const StagedMethod& method, const View& view);
 
 }  // namespace footprint

@@ -16,11 +16,12 @@
 namespace footprint {
 namespace {
 
-ErrorCauses causes_of(const ReferenceView& target, const Image& picture, float exposure) {
+// bound: of the footprint filter; null where there is none, as of a history.
+ErrorCauses causes_of(const ReferenceView& target, const BoundPicture* bound, const Image& picture, float exposure) {
   ErrorCauses causes = error_causes({.method = picture,
                                      .reference = target.reference.mean,
-                                     .bound = target.bound ? &target.bound->picture : nullptr,
-                                     .bound_pixels = target.bound ? &target.bound->pixels : nullptr},
+                                     .bound = bound != nullptr ? &bound->picture : nullptr,
+                                     .bound_pixels = bound != nullptr ? &bound->pixels : nullptr},
                                     target.parts, exposure);
   causes.shading_floor = target.shading_floor;
   if (target.reference.halves)
@@ -48,6 +49,7 @@ std::vector<OtherReference> errors_against_others(const ReferenceView& target, c
 void set_error(Record& record, const ReferenceView& target, const MethodPictures& pictures, float exposure) {
   const std::optional<ErrorFigures> figures = compare_images(pictures.frame, target.reference.mean, exposure);
   if (!figures) return;
+  const BoundPicture* const bound = target.bound && !record.history ? &*target.bound : nullptr;
   record.error = RecordError{.normalized_color = figures->normalized_color,
                              .relative_rmse = figures->relative_rmse,
                              .relmse = figures->relmse,
@@ -57,7 +59,7 @@ void set_error(Record& record, const ReferenceView& target, const MethodPictures
                              .luminances = figures->luminances,
                              .reference_luminances = figures->reference_luminances,
                              .noise_floor = target.noise_floor,
-                             .causes = causes_of(target, pictures.frame, exposure)};
+                             .causes = causes_of(target, bound, pictures.frame, exposure)};
   if (pictures.finest) {
     record.error->representation = normalized_color(*pictures.finest, target.reference.mean, exposure);
     record.error->filtering = normalized_color(pictures.frame, *pictures.finest, exposure);
@@ -66,6 +68,14 @@ void set_error(Record& record, const ReferenceView& target, const MethodPictures
   record.reference_highlight_energy = target.highlight_energy;
   record.equivalent = equivalent(target, *record.error);
   record.other_references = errors_against_others(target, pictures.frame, exposure);
+}
+
+std::optional<HistoryInfo> info_of(const HistorySettings& history) {
+  if (history.frames == 0) return {};
+  return HistoryInfo{.frames = history.frames,
+                     .alpha = history.alpha,
+                     .clamp = std::string(word_for(history_clamps, history.clamp)),
+                     .jitter = history.jitter};
 }
 
 void name_reference(Record& record, const ReferenceView& target) {
@@ -151,8 +161,9 @@ Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView
   const EffectSet& honours = baked.method->info.honours;
   Record record;
   record.scene = stage_.scene().name;
-  record.method = baked.spec.text;
+  record.method = method.text();
   record.options = {baked.options.all().begin(), baked.options.all().end()};
+  record.history = info_of(method.history());
   record.distance = target.at.distance;
   record.degrees = target.at.degrees;
   record.frame = static_cast<int>(target.index);

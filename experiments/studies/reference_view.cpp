@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "experiments/settings/history_options.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/plain_supersampling.hpp"
 #include "experiments/studies/reference_noise.hpp"
@@ -84,7 +85,9 @@ ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, Stage& stage, 
       folder_(std::move(folder)),
       progress_(progress),
       interior_finder_(stage.interior_finder()),
-      bound_(stage_bound(stage, settings.history.frames > 0 ? BoundUse::off : settings.reference.bound, warnings_)),
+      bound_(stage_bound(
+          stage, count_histories(settings) == settings.methods.size() ? BoundUse::off : settings.reference.bound,
+          warnings_)),
       shared_(shared != nullptr ? shared : &own_) {}
 
 double ReferenceRenderer::weight(const RunSettings& settings) {

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "experiments/settings/history_options.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
@@ -60,6 +61,12 @@ std::unique_ptr<FrameRenderer> frames_of(const gl::ContextInfo& context, GpuScen
                                          const RunSettings& settings) {
   return std::make_unique<FrameRenderer>(context, scene, method, size, frame_program(values, filter),
                                          settings.backend.tile);
+}
+
+std::string text_of_maps(const MethodSpec& method) {
+  std::string text = method.name;
+  for (const auto& [name, value] : method.options) text += fmt::format(":{}={}", name, value);
+  return text;
 }
 
 // Whether the context is lost.
@@ -128,22 +135,23 @@ PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
     : prepared_(std::make_shared<const PreparedMethod>(PreparedMethod{
           .baked = std::make_unique<BakedMethod>(make_bake(find_method(spec.name), spec)), .gpu = nullptr})),
+      drawn_{.spec = spec, .filter = {}},
       refusal_(refusal) {}
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
                            const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
                            const glm::ivec2& size, const RunSettings& settings, const Progress& progress)
-    : filter_(filter) {
+    : drawn_{.spec = spec, .filter = filter} {
   prepared_ = std::make_shared<const PreparedMethod>(
       bake_and_upload(scene, values, effects, spec, cache_of(settings), progress));
   frames_ = frames_of(context, scene, *prepared_->gpu, values, filter, size, settings);
 }
 
 StagedMethod::StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared,
-                           const FootprintFilter& filter, const glm::ivec2& size, const RunSettings& settings)
+                           const StagedFrames& wanted, const glm::ivec2& size, const RunSettings& settings)
     : prepared_(std::move(prepared)),
-      frames_(frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene, filter, size, settings)),
-      filter_(filter) {}
+      frames_(frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene, wanted.filter, size, settings)),
+      drawn_(wanted) {}
 
 Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures, Unit unit,
              Refusal refusal)
@@ -157,7 +165,7 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
       size_(frame_size(prepared_->scene, settings.view.size)) {
   require_pictures(size_, pictures);
   PreparedScene& shared = *prepared_;
-  const std::vector<Wanted> wanted = wanted_methods(unit);
+  const std::vector<StagedFrames> wanted = wanted_methods(unit);
   const bool is_first = shared.gpu == nullptr;
   const auto bakes = static_cast<double>(wanted.size() + 1);
   // Visibility takes as long as all bakes, or longer.
@@ -170,7 +178,7 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
     shared.gpu = std::make_unique<GpuScene>(shared.context.info(), shared.scene, shared.effects, of_upload,
                                             cache ? &*cache : nullptr);
   }
-  for (const Wanted& method : wanted) {
+  for (const StagedFrames& method : wanted) {
     const auto failure =
         failure_of(shared.context, method.spec, [&] { methods_.push_back(staged(method, parts.next(1, "bake "))); });
     if (!failure) continue;
@@ -187,27 +195,31 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
   shared.context.check("setting up the scene");
 }
 
-// The unit is `direct` under its filter, added where it is not there yet. `direct:option=...` is another method.
-std::vector<Stage::Wanted> Stage::wanted_methods(Unit unit) {
+// The unit is a single frame of `direct` under its filter, added where it is not there yet. `direct:option=...` is
+// another method.
+std::vector<StagedFrames> Stage::wanted_methods(Unit unit) {
   const FootprintFilter own = footprint_filter_of(settings_, scene());
-  std::vector<Wanted> wanted;
-  for (const MethodSpec& spec : settings_.methods) wanted.push_back({.spec = spec, .filter = own});
+  std::vector<StagedFrames> wanted;
+  for (const MethodSpec& spec : settings_.methods)
+    wanted.push_back({.spec = spec, .filter = own, .history = history_of(spec, settings_.history)});
   if (unit == Unit::none) return wanted;
-  const FootprintFilter filter = settings_.timing.unit.value_or(own);
-  const auto is_unit = [&](const Wanted& method) { return method.spec.text == "direct" && method.filter == filter; };
+  const StagedFrames direct{.spec = {.text = "direct", .name = "direct", .options = {}},
+                            .filter = settings_.timing.unit.value_or(own)};
+  const auto is_unit = [&](const StagedFrames& method) {
+    return method.spec.text == direct.spec.text && method.filter == direct.filter && method.history.frames == 0;
+  };
   const auto found = std::ranges::find_if(wanted, is_unit);
   unit_ = static_cast<std::size_t>(found - wanted.begin());
-  if (found == wanted.end())
-    wanted.push_back({.spec = {.text = "direct", .name = "direct", .options = {}}, .filter = filter});
+  if (found == wanted.end()) wanted.push_back(direct);
   return wanted;
 }
 
-StagedMethod Stage::staged(const Wanted& method, const Progress& progress) {
-  std::shared_ptr<const PreparedMethod>& known = prepared_->methods[method.spec.text];
+StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress) {
+  std::shared_ptr<const PreparedMethod>& known = prepared_->methods[text_of_maps(method.spec)];
   if (!known)
     known = std::make_shared<const PreparedMethod>(
         bake_and_upload(*prepared_->gpu, scene(), effects(), method.spec, cache_of(settings_), progress));
-  return {*prepared_, known, method.filter, size_, settings_};
+  return {*prepared_, known, method, size_, settings_};
 }
 
 SceneInfo Stage::info(const Exposure& exposure) const {

@@ -74,9 +74,17 @@ struct PreparedScene {
   std::size_t triangles;  ///< that were given
   std::vector<EffectDecision> decisions;
   EffectSet effects;
-  std::unique_ptr<GpuScene> gpu;                                           ///< null before the first stage
-  std::map<std::string, std::shared_ptr<const PreparedMethod>> methods{};  ///< by their text
-  PreparedMethod base{};                                                   ///< what the reference draws
+  std::unique_ptr<GpuScene> gpu;  ///< null before the first stage
+  /// By name and options of their maps; methods that differ in their history share them.
+  std::map<std::string, std::shared_ptr<const PreparedMethod>> methods{};
+  PreparedMethod base{};  ///< what the reference draws
+};
+
+/// A method as it is to be drawn.
+struct StagedFrames {
+  MethodSpec spec;
+  FootprintFilter filter;
+  HistorySettings history{};
 };
 
 /// A method ready to draw frames. Pinned: each part keeps the address of those before it.
@@ -87,7 +95,7 @@ class StagedMethod {
                const RunSettings& settings, const Progress& progress);
 
   /// Of what is prepared already.
-  StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared, const FootprintFilter& filter,
+  StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared, const StagedFrames& wanted,
                const glm::ivec2& size, const RunSettings& settings);
 
   /// A method that cannot be drawn, for the reason given: it has options, but no maps and no frames.
@@ -99,12 +107,15 @@ class StagedMethod {
   [[nodiscard]] const BakedMethod& baked() const { return *prepared_->baked; }
   [[nodiscard]] const GpuMethod& gpu() const { return *prepared_->gpu; }
   [[nodiscard]] const FrameRenderer& frames() const { return *frames_; }
-  [[nodiscard]] const FootprintFilter& filter() const { return filter_; }
+  /// As written.
+  [[nodiscard]] const std::string& text() const { return drawn_.spec.text; }
+  [[nodiscard]] const FootprintFilter& filter() const { return drawn_.filter; }
+  [[nodiscard]] const HistorySettings& history() const { return drawn_.history; }
 
  private:
   std::shared_ptr<const PreparedMethod> prepared_;
   std::unique_ptr<FrameRenderer> frames_;
-  FootprintFilter filter_{};
+  StagedFrames drawn_;
   std::optional<Error> refusal_;
 };
 
@@ -160,13 +171,8 @@ class Stage {
   [[nodiscard]] Supersampler finest_level(const StagedMethod& method) const;
 
  private:
-  // A method that is to be staged.
-  struct Wanted {
-    MethodSpec spec;
-    FootprintFilter filter;
-  };
-  [[nodiscard]] std::vector<Wanted> wanted_methods(Unit unit);
-  [[nodiscard]] StagedMethod staged(const Wanted& method, const Progress& progress);
+  [[nodiscard]] std::vector<StagedFrames> wanted_methods(Unit unit);
+  [[nodiscard]] StagedMethod staged(const StagedFrames& method, const Progress& progress);
 
   std::shared_ptr<PreparedScene> prepared_;
   RunSettings settings_;

@@ -63,6 +63,7 @@ struct MethodSpec {
   std::string text;  ///< as written
   std::string name;
   std::map<std::string, std::string> options;
+  std::map<std::string, std::string> history{};  ///< options of the history of its frames (docs/temporal.md)
 };
 
 /// Splits "a,b:x=1:y=2". Throws Error (usage): empty names, an option without `=`, an option or a text given twice.

@@ -51,10 +51,11 @@ constexpr std::string_view error_unit = "normalised colour error, 0 to 1";
 constexpr std::string_view cause_unit = "normalised colour by cause, 0 to 2";
 constexpr std::string_view part_unit = "normalised colour error over some of the pixels, 0 to 1";
 
-constexpr std::array<Column, 71> all_columns{
+constexpr std::array<Column, 72> all_columns{
     {{"scene", "/scene", "text"},
      {"method", "/method", "text"},
      {"options", "/options", "text, `name=value;name=value`"},
+     {"history_frames", "/history/frames", "frames before the image"},
      {"distance", "/distance", "factor on the scene's own distance", "Distance",
       "Camera distance, as a multiple of the scene’s own.", "", cell::number},
      {"degrees", "/degrees", "angle since the first frame"},

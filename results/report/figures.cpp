@@ -39,6 +39,19 @@ std::string scene_text(const SceneInfo& scene) {
                      scene.source);
 }
 
+// How frames were accumulated, each form once.
+std::vector<std::string> histories_of(const Results& results) {
+  std::vector<std::string> texts;
+  for (const Record& record : results.records) {
+    if (!record.history) continue;
+    const auto& [frames, alpha, clamp, jitter] = *record.history;
+    std::string text = fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/temporal.md)", frames, alpha, clamp,
+                                   jitter ? "on" : "off");
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
 }  // namespace
 
 std::string timing_text(const TimingInfo& timing) {
@@ -114,12 +127,7 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
       {"Footprint filter", fmt::format("{} (docs/filters.md)", results.footprint)}};
-  if (results.history) {
-    const HistoryInfo& history = *results.history;
-    lines.push_back(
-        {"History", fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/temporal.md)", history.frames,
-                                history.alpha, history.clamp, history.jitter ? "on" : "off")});
-  }
+  for (std::string& history : histories_of(results)) lines.push_back({"History", std::move(history)});
   if (results.timing.frames > 0) lines.push_back({"Timing", timing_text(results.timing)});
   lines.push_back({"Supplied", list_text(scene.defaults, "none")});
   for (const std::string& warning : scene.warnings) lines.push_back({"Warning", warning});

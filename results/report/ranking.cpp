@@ -153,8 +153,10 @@ std::string what_edges_add(const DistanceRecords& records) {
   if (errors.empty()) return {};
   const PixelCounts& pixels = records.front().get().pixels;
   const auto [least, most] = std::ranges::minmax(errors);
-  return fmt::format("Edges make up {} of the object's pixels; the error there is {}, because no method filters edges.",
-                     percent(pixels.object - pixels.interior, pixels.object), range_text(least, most));
+  const bool has_jitter = std::ranges::any_of(records, [](const Record& r) { return r.history && r.history->jitter; });
+  return fmt::format("Edges make up {} of the object's pixels; the error there is {}, because {}.",
+                     percent(pixels.object - pixels.interior, pixels.object), range_text(least, most),
+                     has_jitter ? "only a history's jitter filters edges" : "no method filters edges");
 }
 
 bool has_nothing_to_filter(const PixelCounts& pixels) { return pixels.interior > 0 && pixels.minified == 0; }

@@ -130,11 +130,19 @@ void fields(auto& archive, Is<GpuCost> auto& value) {
   archive("failure", value.failure);
 }
 
+void fields(auto& archive, Is<HistoryInfo> auto& value) {
+  archive("frames", value.frames);
+  archive("alpha", value.alpha);
+  archive("clamp", value.clamp);
+  archive("jitter", value.jitter);
+}
+
 template <class Archive>
 void fields(Archive& archive, Is<Record> auto& value) {
   archive("scene", value.scene);
   archive("method", value.method);
   archive("options", value.options);
+  archive("history", value.history);
   archive("distance", value.distance);
   archive("degrees", value.degrees);
   archive("frame", value.frame);
@@ -254,13 +262,6 @@ void fields(auto& archive, Is<TimingInfo> auto& value) {
   archive("processes", value.processes);
 }
 
-void fields(auto& archive, Is<HistoryInfo> auto& value) {
-  archive("frames", value.frames);
-  archive("alpha", value.alpha);
-  archive("clamp", value.clamp);
-  archive("jitter", value.jitter);
-}
-
 void fields(auto& archive, Is<AnimationWay> auto& value) {
   archive("path", value.path);
   archive("axis", value.axis);
@@ -334,7 +335,6 @@ void fields(Archive& archive, Is<Results> auto& value) {
   archive("scene", value.scene);
   archive("reference", value.reference);
   archive("footprint", value.footprint);
-  archive("history", value.history);
   archive("timing", value.timing);
   archive("way", value.way);
   archive("film", value.film);

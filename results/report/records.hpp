@@ -138,11 +138,20 @@ struct MaterialError {
   std::uint64_t bytes = 0;        ///< that the method baked of the material
 };
 
+/// How frames of a method were accumulated.
+struct HistoryInfo {
+  int frames = 0;     ///< of the first view before its image was shown
+  double alpha = 0;   ///< share of the newest frame
+  std::string clamp;  ///< off, box or variance
+  bool jitter = true;
+};
+
 /// One method in one view.
 struct Record {
   std::string scene;
   std::string method;                                                ///< the method as written, options included
   std::map<std::string, std::variant<double, std::string>> options;  ///< every option, defaults filled in
+  std::optional<HistoryInfo> history = {};                           ///< none: images are single frames
   double distance = 1;
   double degrees = 0;  ///< that camera or lights have turned by since the first frame of an animation
   int frame = 0;
@@ -264,14 +273,6 @@ struct AnimationWay {
   std::optional<std::array<double, 3>> axis;  ///< of the rotation, unit, in world space; none: nothing turns
 };
 
-/// How the frames of the methods were accumulated.
-struct HistoryInfo {
-  int frames = 0;     ///< of the first view before its image was shown
-  double alpha = 0;   ///< share of the newest frame
-  std::string clamp;  ///< off, box or variance
-  bool jitter = true;
-};
-
 /// The coordinates of a member of a [matrix]: each axis with its value, as the file writes them.
 using Coordinates = std::vector<std::pair<std::string, std::string>>;
 
@@ -281,8 +282,7 @@ struct Results {
   BackendInfo backend;
   SceneInfo scene;
   ReferenceInfo reference;
-  std::string footprint;                    ///< the footprint filter, as parse_footprint_filter reads it
-  std::optional<HistoryInfo> history = {};  ///< none: images are single frames
+  std::string footprint;  ///< the footprint filter, as parse_footprint_filter reads it
   TimingInfo timing;
   std::optional<AnimationWay> way = {};  ///< none: not an animation
   std::optional<std::string> film = {};  ///< video of its frames, from the output folder; none: not requested

@@ -318,7 +318,9 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         light = [*self.LIGHT, "--footprint", "stochastic:1"]
         history = [*light, "--history", 3, "--history-clamp", "box"]
         run("animate", *history, "-o", whole)
-        self.assertEqual(results_of(whole)["history"], {"frames": 3, "alpha": 0.1, "clamp": "box", "jitter": True})
+        accumulated = {"frames": 3, "alpha": 0.1, "clamp": "box", "jitter": True}
+        for record in results_of(whole)["records"]:
+            self.assertEqual(record["history"], accumulated)
         parts = [self.folder / f"part_{i}" for i in (1, 2)]
         for i, part in enumerate(parts, 1):
             run("animate", *history, "--shard", f"{i}/2", "-o", part)
@@ -328,8 +330,13 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         next((again / "kept").glob("*/frame_0001.json")).unlink()
         run("animate", *history, "-o", again)
         self.assertEqual(self.files(whole), self.files(again), "a lost frame is accumulated again")
-        run("animate", *light, "-o", single)
-        self.assertIsNone(results_of(single)["history"])
+        # Histories of one run, side by side: each is as it is alone, and they share their maps.
+        both = "direct,direct:history=3:history_clamp=box"
+        run("animate", *(both if word == "direct,lean" else word for word in light), "-o", single)
+        records = results_of(single)["records"]
+        self.assertEqual([r["history"] for r in records[:2]], [None, accumulated])
+        self.assertEqual(largest_difference(whole / "images/direct_0002.exr",
+                                            single / "images/direct_history_3_history_clamp_box_0002.exr"), 0.0)
         self.assertGreater(largest_difference(*(folder / "images/direct_0002.exr" for folder in (whole, single))), 0.01)
         # The first frame of a path is the still image of as many frames.
         still = self.render("still", "ribbed_plane", "--method", "direct", "--size", "24x24", "--footprint", "stochastic:1",

@@ -9,6 +9,7 @@
 
 #include "renderer/effects/effects.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
+#include "renderer/pipeline/history_settings.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -49,7 +50,8 @@ struct PictureCase {
   FootprintFilter filter = default_footprint_filter;
   std::string group = "pictures";
   std::optional<CoatCheck> coat{};
-  bool wide = false;  ///< only with --wide: its programs take long to compile
+  std::optional<HistoryClamp> history{};  ///< also drawn in histories with this clamp
+  bool wide = false;                      ///< only with --wide: its programs take long to compile
 };
 
 /// A parameter that passes a hard value in small steps. A step of the distribution is at most `most` of the whole, or

@@ -94,6 +94,8 @@ case. Only properties measured in that run are reported. Cases are entries of th
 | twin | relative error of the image against that of another scene which must look the same | 0.001 |
 | mean | relative error of the mean over the surface against its closed form | 0.05 |
 | coat | largest relative difference of a pixel from the coat's formula over the method's own image without coat | the case's |
+| history | relative error of a history of three frames of a still camera, without jitter, against one frame | 0.00001 |
+| moving | number of values that are not finite or below 0 in a history of three frames of a turning camera, with jitter | 0 |
 | step | largest change of the distribution from one step of a parameter to the next, as a share of the whole | four times the sum's own, or the case's |
 | threads | number of materials that one thread bakes to other bytes than two | 0 |
 | backends | number of values that differ between EGL (all threads) and OSMesa (one thread) | 0 |

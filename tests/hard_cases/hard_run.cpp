@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "renderer/image/metrics.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/pipeline/frame.hpp"
+#include "renderer/pipeline/history.hpp"
 #include "tests/hard_cases/coat_sum.hpp"
 #include "tests/hard_cases/hard_scenes.hpp"
 #include "tests/hard_cases/ndf_bench.hpp"
@@ -87,15 +89,34 @@ class Drawing {
         gpu_(context.info(), scene_, effects_) {}
 
   [[nodiscard]] Image draw(const MethodSpec& spec) {
+    return with_frames(spec, [&](const FrameRenderer& frames) { return frames.render(view()); });
+  }
+
+  // What a history shows after three frames.
+  // turn: of the camera from frame to frame, radians.
+  [[nodiscard]] Image draw_history(const MethodSpec& spec, const HistorySettings& settings, float turn) {
+    return with_frames(spec, [&](const FrameRenderer& frames) {
+      History history(frame, settings);
+      for (View next = view(); next.frame < 3; ++next.frame) {
+        history.add(frames, next);
+        next.camera.world = glm::rotate(next.camera.world, turn, {0.0F, 1.0F, 0.0F});
+      }
+      return history.image();
+    });
+  }
+
+ private:
+  [[nodiscard]] View view() const { return {.size = frame, .camera = scene_.camera}; }
+
+  [[nodiscard]] Image with_frames(const MethodSpec& spec, auto draw) {
     const BakedMethod baked = bake(find_method(spec.name), spec, scene_, effects_, no_progress);
     const GpuMethod method(gpu_, baked);
     const FrameRenderer frames(context_->info(), gpu_, method, frame, {.footprint = filter_});
-    Image picture = frames.render({.size = frame, .camera = scene_.camera});
+    Image picture = draw(frames);
     context_->check("drawing " + spec.text);
     return picture;
   }
 
- private:
   const gl::Context* context_;
   Scene scene_;
   EffectSet effects_;
@@ -209,6 +230,10 @@ class Run {
       if (twin) add("twin", compare_images(twin->draw(spec), picture, 1.0F).value().relative_rmse, 1e-3);
       if (hard.mean) add("mean", std::abs(surface_mean(picture) / *hard.mean - 1.0), 0.05);
       if (coated) coated->judge(spec, picture, add);
+      if (!hard.history) continue;
+      const Image still = drawing.draw_history(spec, {.clamp = *hard.history, .jitter = false}, 0.0F);
+      add("history", compare_images(still, picture, 1.0F).value().relative_rmse, 1e-5);
+      add("moving", bad_numbers(drawing.draw_history(spec, {.clamp = *hard.history}, 0.01F).texels), 0.0);
     }
   }
 

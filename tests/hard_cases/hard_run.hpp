@@ -25,7 +25,7 @@ struct HardRow {
   std::string hard_case;    ///< its name
   std::string group;        ///< column of the table
   std::string description;  ///< the case in words
-  std::string figure;       ///< finite, energy, limit, direct, twin, mean, coat, step, threads or backends
+  std::string figure;  ///< finite, energy, limit, direct, twin, mean, coat, history, moving, step, threads or backends
   double value = 0.0, bound = 0.0;
   Verdict verdict = Verdict::passed;
   std::string why{};      ///< the reason of a known limit or of a failure

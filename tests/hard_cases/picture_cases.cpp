@@ -140,12 +140,22 @@ Scene polished_walls() {
   return scene;
 }
 
+Scene mirrors() { return square(noise(16, 16, 0.5, 9), 0.0F); }
+
 }  // namespace
 
 std::span<const PictureCase> picture_cases() {
   static const std::vector<PictureCase> cases = [] {
     std::vector<PictureCase> all{
-        {"roughness_0", "mirrors over noise", [] { return square(noise(16, 16, 0.5, 9), 0.0F); }},
+        {"roughness_0", "mirrors over noise", mirrors},
+        {.name = "history_of_mirrors",
+         .description = "a history of a mirror's highlights",
+         .scene = mirrors,
+         .history = HistoryClamp::off},
+        {.name = "clamped_history",
+         .description = "the same, clamped to the deviation of nine pixels",
+         .scene = mirrors,
+         .history = HistoryClamp::variance},
         {"roughness_1", "roughness 1 over noise up to the horizon",
          [] { return square(noise(16, 16, 0.999, 9), 1.0F); }},
         {"roughness_0_and_1", "roughness 0 and 1 in turn", varying_roughness},

@@ -61,6 +61,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
       .object = 12'345, .unresolved = 50, .interior = 9'260, .minified = 9'000, .bound = 9'260, .light = {}};
   record.equivalent = equivalent_samples(
       supersampling_curve(results.supersampling, distance, &SupersamplingPoint::shading), error * 0.8);
+  if (behaviour.bytes != 0) record.history = {.frames = 16, .alpha = 0.1, .clamp = "box", .jitter = true};
   const double ms = behaviour.milliseconds / std::pow(distance, 0.3);
   record.frame_ms = {ms, ms * 0.96, ms * 1.11};
   record.fps = 1000 / ms;
@@ -157,7 +158,6 @@ Results example_results() {
                    .warnings = {"KHR_materials_clearcoat is optional here and was left out"}};
   results.reference = {256, "after_shading", 7, {0.0042, 0.0051, 0.0085}};
   results.footprint = "anisotropic:8";
-  results.history = {.frames = 16, .alpha = 0.1, .clamp = "box", .jitter = true};
   results.timing = {.frames = 9, .processes = 5};
   results.error_scale = 0.1;
   for (const double distance : {1.0, 4.0, 16.0}) {

@@ -86,12 +86,13 @@ glm::dvec3 FacetSum::operator()(std::size_t wi, std::size_t wo) const {
   const double area = bvndf_.visible_area[wo];
   if (area < least_area * bvndf_.total_area()) return glm::dvec3(0.0);
   const glm::dvec3 h = glm::normalize(to_light + to_viewer);
+  const Eigen::VectorXd row = compressed_ ? compressed_->row(h) : Eigen::VectorXd();
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < bvndf_.bins.size(); ++i) {
     const glm::dvec3& n = bvndf_.bins[i].normal;
     const double cosine_i = glm::dot(n, to_light), cosine_o = glm::dot(n, to_viewer);
     if (cosine_i <= 0.0 || cosine_o <= 0.0) continue;
-    const double density = table_ != nullptr ? 1.0 : base_density(n, h);
+    const double density = table_ != nullptr ? 1.0 : compressed_ ? compressed_->density(row, n) : base_density(n, h);
     if (density == 0.0) continue;
     const double seen = bvndf_.gamma(i, wi, wo) * cosine_o * (cosines_ == Cosines::published ? cosine_i : 1.0);
     if (seen == 0.0) continue;
@@ -103,11 +104,13 @@ glm::dvec3 FacetSum::operator()(std::size_t wi, std::size_t wo) const {
   return sum / area;
 }
 
-DenseTable::DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress)
+DenseTable::DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress,
+                       const std::optional<LowRank>& compressed)
     : side_(side), with_cosine_(settings.cosines == Cosines::published) {
   const Patch& patch = material.microgeometry->patch;
-  const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)),
-                     direction_grid(side), progress);
+  FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)),
+               direction_grid(side), progress);
+  if (compressed) sum.compress(*compressed);
   const std::size_t n = sum.directions().size();
   values_.resize(n * n);
   tbb::parallel_for(std::size_t{0}, n, [&](std::size_t wi) {

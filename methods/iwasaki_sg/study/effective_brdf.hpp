@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "methods/iwasaki_sg/bvndf.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
+#include "methods/iwasaki_sg/study/low_rank_lobe.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/lobes/lobe.hpp"
@@ -32,6 +34,9 @@ class FacetSum {
   FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
            std::vector<glm::dvec3> directions, const Progress& progress);
 
+  /// The same with a compressed base lobe.
+  void compress(const LowRank& sizes) { compressed_.emplace(lobe_, sizes); }
+
   /// The sum for two directions by their indices in the list.
   [[nodiscard]] glm::dvec3 operator()(std::size_t wi, std::size_t wo) const;
 
@@ -47,6 +52,7 @@ class FacetSum {
   Cosines cosines_;
   std::size_t channels_;
   std::vector<PaintFactors> paints_;
+  std::optional<LowRankLobe> compressed_;
 };
 
 /// A table of the sum for `side` x `side` directions to the light and as many to the viewer, interpolated between
@@ -54,8 +60,10 @@ class FacetSum {
 /// by the cosine if the facets' own cosine is included.
 class DenseTable {
  public:
-  /// `side` is 2 or more; time grows as its fourth power.
-  DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress);
+  /// side: 2 or more; time grows as its fourth power.
+  /// compressed: the sizes of a base lobe as Wu et al. compress it; none: the lobe itself.
+  DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress,
+             const std::optional<LowRank>& compressed = {});
 
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
 

@@ -114,6 +114,21 @@ double measured_table_bytes(const Material& material, const Options& options, co
   return static_cast<double>(DenseTable::byte_count(side_of(parameters), channels));
 }
 
+LowRank sizes_of(const Options& parameters) {
+  const auto whole = [&](const char* name) { return static_cast<int>(parameters.number(name)); };
+  return {.side = whole("side"), .normals = whole("normals"), .values = whole("values")};
+}
+
+double measured_compressed_error(const Material& material, const Options& options, const Options& parameters) {
+  const Measured it = measured(material, options);
+  const LowRank sizes = sizes_of(parameters);
+  return relative_error(material, it.settings, DenseTable(material, it.settings, sizes.side, no_progress, sizes));
+}
+
+double compressed_bytes(const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
+  return static_cast<double>(LowRankLobe::byte_count(sizes_of(parameters)));
+}
+
 OptionSpec sharpness(std::string name) {
   return number_option(std::move(name), 100.0, 1e-3, 1e6, "Sharpness of one of the two spherical Gaussians.");
 }
@@ -159,6 +174,9 @@ std::vector<Quantity> stage_quantities() {
 std::vector<Quantity> brdf_quantities() {
   const OptionSpec side =
       whole_option("side", 12, 2, 96, "Side of the table's grids of directions; its time grows as the fourth power.");
+  const std::vector<OptionSpec> compression{
+      side, whole_option("normals", 40, 2, 96, "Side of the grid of normals; time grows as its fourth power."),
+      whole_option("values", 70, 1, 1024, "Singular values that are stored.")};
   return {{"brdf_error",
            "Root mean square difference of the effective BRDF from the sum over facets, for random pairs of "
            "directions, over the root mean square of the sum.",
@@ -168,7 +186,11 @@ std::vector<Quantity> brdf_quantities() {
           {"brdf_ms", "Time of baking the material, once, milliseconds.", {}, measured_brdf_ms},
           {"table_error", "brdf_error of a dense table of the effective BRDF.", {side}, measured_table_error},
           {"table_bytes", "Bytes of that table.", {side}, measured_table_bytes},
-          {"table_ms", "Time of making that table, once, milliseconds.", {side}, measured_table_ms}};
+          {"table_ms", "Time of making that table, once, milliseconds.", {side}, measured_table_ms},
+          {"compressed_error",
+           "table_error where the base lobe is a matrix of few singular values, as Wu et al. 2011 compress it.",
+           compression, measured_compressed_error},
+          {"compressed_bytes", "Bytes of that matrix: both factors.", compression, compressed_bytes}};
 }
 
 std::vector<Quantity> quantity_table() {

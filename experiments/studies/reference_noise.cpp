@@ -67,6 +67,8 @@ std::optional<Flicker> flicker_between(const Image& before, const Image& picture
   const auto figures = compare_changes(before, picture, reference_before.mean, reference.mean, exposure);
   if (!figures) return std::nullopt;
   Flicker flicker{.mean = figures->mean, .p99 = figures->p99, .noise_floor = {}};
+  flicker.ghosting = normalized_color_over(picture, reference.mean, exposure,
+                                           trailing_edges(reference_before.mean, reference.mean, exposure));
   if (!reference_before.halves || !reference.halves) return flicker;
   const auto& [old_even, old_odd] = *reference_before.halves;
   const auto& [even, odd] = *reference.halves;

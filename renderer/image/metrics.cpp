@@ -101,6 +101,10 @@ double sorted_distance(std::vector<double> a, std::vector<double> b) {
   return sum / static_cast<double>(a.size());
 }
 
+double shown_luminance(const Rgb& rgb, double exposure) {
+  return luminance(displayed(rgb[0], exposure), displayed(rgb[1], exposure), displayed(rgb[2], exposure));
+}
+
 // Sum over channels of squared differences of displayed values.
 double displayed_squared_distance(const Rgb& a, const Rgb& b, double exposure) {
   double sum = 0;
@@ -131,12 +135,9 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
 
   double distance = 0, shown_squares = 0, squares = 0, reference_squares = 0, relative = 0, sum = 0, reference_sum = 0;
   std::vector<double> shown_luminances, reference_luminances;
-  const auto shown_luminance = [&](const Rgb& rgb) {
-    return luminance(displayed(rgb[0], exposure), displayed(rgb[1], exposure), displayed(rgb[2], exposure));
-  };
   visit_object_pixels(picture, reference, [&](int, int, const Rgb& x, const Rgb& r) {
-    shown_luminances.push_back(shown_luminance(x));
-    reference_luminances.push_back(shown_luminance(r));
+    shown_luminances.push_back(shown_luminance(x, exposure));
+    reference_luminances.push_back(shown_luminance(r, exposure));
     const double shown = displayed_squared_distance(x, r, exposure);
     distance += std::sqrt(shown / 3);
     shown_squares += shown;
@@ -203,6 +204,16 @@ std::optional<FlickerFigures> compare_changes_over(const Image& before, const Im
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(flicker_quantile * count)) - 1;
   std::ranges::nth_element(differences, differences.begin() + rank);
   return FlickerFigures{.mean = mean, .p99 = differences[static_cast<std::size_t>(rank)]};
+}
+
+Image trailing_edges(const Image& reference_before, const Image& reference, float exposure) {
+  Image edges(reference.width, reference.height, 1);
+  visit_object_pixels(reference_before, reference, [&](int column, int row, const Rgb& old, const Rgb& now) {
+    if (!covers_whole_pixel(reference_before.at(column, row))) return;
+    if (shown_luminance(old, exposure) - shown_luminance(now, exposure) >= trailing_fall)
+      edges.at(column, row)[0] = 1.0F;
+  });
+  return edges;
 }
 
 std::optional<double> highlight_energy(const Image& picture, const Image& reference, float exposure) {

@@ -54,13 +54,17 @@ struct FlickerFigures {
                                                                  const Image& reference_before, const Image& reference,
                                                                  float exposure, const Image& mask);
 
+/// The trailing edges of highlights: 1 where both references cover the pixel wholly and displayed luminance fell by
+/// `trailing_fall` or more from `reference_before` to `reference`, of one size; elsewhere 0.
+[[nodiscard]] Image trailing_edges(const Image& reference_before, const Image& reference, float exposure);
+
 /// The energy of highlights: the mean over object pixels of exposed luminance above `highlight_level`, not clamped.
 /// Empty without object pixels. Throws as compare_images.
 [[nodiscard]] std::optional<double> highlight_energy(const Image& picture, const Image& reference, float exposure);
 
 /// The exposed luminance at which highlights start: automatic exposure maps the brightest twentieth of the reference to
 /// it.
-inline constexpr double highlight_level = 0.8;
+inline constexpr double highlight_level = 0.8, trailing_fall = 0.1;
 
 /// The normalised colour error per pixel, one channel, 0 outside the object; shown in false colour.
 [[nodiscard]] Image error_map(const Image& picture, const Image& reference, float exposure);

@@ -295,6 +295,14 @@ TEST(Flicker, OverAMaskCountsItsPixelsAlone) {
             std::string::npos);
 }
 
+TEST(TrailingEdges, ArePixelsThatGotDarkerByTheStepInBothReferences) {
+  const Image before = pixels({{8, 8, 8, 1}, {0.5F, 0.5F, 0.5F, 1}, {0, 0, 0, 1}, {1, 1, 1, 0.5F}, {1, 1, 1, 1}});
+  const Image now =
+      pixels({{0.85F, 0.85F, 0.85F, 1}, {0.45F, 0.45F, 0.45F, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {0, 0, 0, 0}});
+  EXPECT_EQ(trailing_edges(before, now, 1.0F).texels, (std::vector<float>{1, 0, 0, 0, 0})) << "8 is shown as 1";
+  EXPECT_EQ(trailing_edges(before, now, 4.0F).texels, (std::vector<float>{0, 0, 0, 0, 0})) << "both are shown as 1";
+}
+
 TEST(HighlightEnergy, IsThePartAboveTheLevelUnclamped) {
   const Image reference = pixels({{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 0.5F}});
   const Image picture = pixels({{4, 4, 4, 1}, {0.5F, 0.5F, 0.5F, 1}, {9, 9, 9, 1}});

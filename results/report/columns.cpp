@@ -51,7 +51,7 @@ constexpr std::string_view error_unit = "normalised colour error, 0 to 1";
 constexpr std::string_view cause_unit = "normalised colour by cause, 0 to 2";
 constexpr std::string_view part_unit = "normalised colour error over some of the pixels, 0 to 1";
 
-constexpr std::array<Column, 72> all_columns{
+constexpr std::array<Column, 73> all_columns{
     {{"scene", "/scene", "text"},
      {"method", "/method", "text"},
      {"options", "/options", "text, `name=value;name=value`"},
@@ -109,6 +109,7 @@ constexpr std::array<Column, 72> all_columns{
       "How much the change since the previous frame differs from the reference’s, 0 to 2.", "", cell::significant},
      {"flicker_p99", "/flicker/p99", "normalised colour, 0 to 2"},
      {"flicker_noise_floor", "/flicker/noise_floor", "normalised colour, 0 to 2"},
+     {"ghosting", "/flicker/ghosting", part_unit},
      {"flicker_shading", "/flicker/shading/mean", cause_unit},
      {"flicker_shading_p99", "/flicker/shading/p99", cause_unit},
      {"flicker_edges", "/flicker/edges/mean", cause_unit},

@@ -45,8 +45,8 @@ std::vector<std::string> histories_of(const Results& results) {
   for (const Record& record : results.records) {
     if (!record.history) continue;
     const auto& [frames, alpha, clamp, jitter] = *record.history;
-    std::string text = fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/temporal.md)", frames, alpha, clamp,
-                                   jitter ? "on" : "off");
+    std::string text = fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/temporal.md)", frames, alpha,
+                                   clamp, jitter ? "on" : "off");
     if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
   }
   return texts;

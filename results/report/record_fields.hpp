@@ -65,6 +65,7 @@ void fields(auto& archive, Is<Flicker> auto& value) {
   archive("mean", value.mean);
   archive("p99", value.p99);
   archive("noise_floor", value.noise_floor);
+  archive("ghosting", value.ghosting);
   archive("shading", value.causes.shading);
   archive("edges", value.causes.edges);
   archive("filter", value.causes.filter);

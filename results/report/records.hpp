@@ -106,9 +106,10 @@ struct FlickerCauses {
 
 /// The change of an image from frame to frame that the reference does not have; docs/metrics.md.
 struct Flicker {
-  double mean = 0;                    ///< over the object's pixels, 0 to 2
-  double p99 = 0;                     ///< 99th percentile over them
-  std::optional<double> noise_floor;  ///< the mean that the references' own noise causes
+  double mean = 0;                      ///< over the object's pixels, 0 to 2
+  double p99 = 0;                       ///< 99th percentile over them
+  std::optional<double> noise_floor;    ///< the mean that the references' own noise causes
+  std::optional<double> ghosting = {};  ///< error where the reference got darker (trailing_edges); none: nowhere
   FlickerCauses causes = {};
 };
 

@@ -230,6 +230,20 @@ SettingType angle(Field<std::optional<double>> field, double most) {
           .text = text_of(field)};
 }
 
+SettingType seconds(Field<std::optional<double>> field) {
+  return {.word = "SECONDS",
+          .takes = fmt::format("-{0} to {0}", largest_seconds),
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                const auto number = parse_whole_of<double>(text);
+                if (!number || !(std::abs(*number) <= largest_seconds))
+                  throw not_valid(option, text, "is not a time",
+                                  fmt::format("give seconds from -{0} to {0}", largest_seconds));
+                field(run) = *number;
+              },
+          .text = text_of(field)};
+}
+
 SettingType direction(Field<std::optional<glm::dvec3>> field) {
   return {.word = "X,Y,Z",
           .read_text = [=](RunSettings& run, std::string_view option,

@@ -44,6 +44,9 @@ using Field = Value& (*)(RunSettings& run);
 [[nodiscard]] SettingType positive_number(Field<std::optional<double>> field, double low, double high);
 [[nodiscard]] SettingType positive_number(Field<double> field, double low, double high);
 
+/// A moment in seconds, of either sign.
+[[nodiscard]] SettingType seconds(Field<std::optional<double>> field);
+
 /// An angle in degrees, in either direction, not 0.
 [[nodiscard]] SettingType angle(Field<std::optional<double>> field, double most);
 

@@ -18,16 +18,20 @@ namespace footprint {
 
 /// Selections by name, or by number from 0. None: the file's default (docs/scenes.md).
 struct ModelSelection {
-  std::optional<std::string> scene, camera, variant;
+  std::optional<std::string> scene{}, camera{}, variant{}, animation{};
+  std::optional<double> time{};  ///< of the animation, seconds
 
-  [[nodiscard]] bool empty() const { return !scene && !camera && !variant; }
+  [[nodiscard]] bool empty() const { return !scene && !camera && !variant && !animation && !time; }
 };
+
+/// The latest and the earliest time of an animation that can be given, seconds.
+inline constexpr double largest_seconds = 1e6;
 
 /// The entries of one kind in a model file, and the selected one.
 struct ModelChoice {
-  std::string kind;                  ///< "scene", "camera", "variant"
+  std::string kind;                  ///< "scene", "camera", "variant", "animation"
   std::vector<std::string> names;    ///< in the file's order; "camera 2" if it has no name
-  std::optional<std::size_t> taken;  ///< none: the file has no entry, or its own materials are used
+  std::optional<std::size_t> taken;  ///< none: no entry, its own materials, or the pose at rest
 };
 
 /// The index of the name or number `wanted`. Throws Error (usage): unknown, with the nearest name.

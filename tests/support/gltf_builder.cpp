@@ -59,7 +59,8 @@ int GltfBuilder::add_accessor(std::span<const std::uint8_t> bytes, int component
 }
 
 int GltfBuilder::add_floats(const std::vector<float>& values, const std::string& type) {
-  const std::size_t width = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+  const std::size_t side = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+  const std::size_t width = type.starts_with("MAT") ? side * side : side;
   return add_accessor(bytes_of(values), 5126, values.size() / width, type);
 }
 

@@ -141,15 +141,17 @@ void select(const ModelSelection& wanted, const std::string& source, SceneSettin
     if (ModelSettings* model = model_of(part)) models.push_back(model);
   }
   if (models.size() != 1) {
-    throw Error(
-        ErrorKind::usage, source,
-        models.empty() ? "it has no model file whose scene, camera or variant could be chosen"
-                       : "it has several model files, so that it is not clear whose is chosen",
-        models.empty() ? "leave the choice out" : "write `scene`, `camera`, `variant` into their [model] tables");
+    throw Error(ErrorKind::usage, source,
+                models.empty() ? "it has no model file whose scene, camera, variant, animation or time could be chosen"
+                               : "it has several model files, so that it is not clear whose is chosen",
+                models.empty() ? "leave the choice out"
+                               : "write `scene`, `camera`, `variant`, `animation`, `time` into their [model] tables");
   }
   ModelSelection& own = models.front()->selection;
   if (wanted.scene) own.scene = wanted.scene;
   if (wanted.variant) own.variant = wanted.variant;
+  if (wanted.animation) own.animation = wanted.animation;
+  if (wanted.time) own.time = wanted.time;
   if (wanted.camera) {
     own.camera = wanted.camera;
     settings.camera = {};

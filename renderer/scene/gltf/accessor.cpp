@@ -105,7 +105,7 @@ std::string place_of(int accessor) { return fmt::format("accessors[{}]", accesso
 void check_shape(const tinygltf::Accessor& accessor, int components, const std::string& place) {
   const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
   const bool matrix = accessor.type >= TINYGLTF_TYPE_MAT2 && accessor.type <= TINYGLTF_TYPE_MAT4;
-  if (matrix || width != components) {
+  if (matrix != (components == 16) || width != components) {
     refuse_gltf(place,
                 fmt::format("has elements of another type than the {} components that its use needs", components));
   }

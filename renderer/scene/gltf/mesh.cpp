@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/geometry.hpp"
@@ -31,16 +33,21 @@ struct Builder {
   }
 };
 
-/// The values of an attribute; none if it is missing. All attributes have as many elements as POSITION.
-std::vector<float> read_attribute(const Builder& builder, const std::string& name, int components) {
-  const auto found = builder.primitive.attributes.find(name);
-  if (found == builder.primitive.attributes.end()) return {};
+/// The values of one of some attributes; none if it is missing. All attributes have as many elements as POSITION.
+std::vector<float> read_attribute(const Builder& builder, const std::map<std::string, int>& attributes,
+                                  const std::string& name, int components) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return {};
   auto values = read_floats(builder.model, found->second, components);
   const std::size_t count = values.size() / static_cast<std::size_t>(components);
   if (!builder.vertices.empty() && count != builder.vertices.size()) {
     refuse_gltf(name, fmt::format("has {} elements, POSITION has {}", count, builder.vertices.size()));
   }
   return values;
+}
+
+std::vector<float> read_attribute(const Builder& builder, const std::string& name, int components) {
+  return read_attribute(builder, builder.primitive.attributes, name, components);
 }
 
 void read_positions(Builder& builder) {
@@ -143,37 +150,87 @@ void read_triangles(Builder& builder) {
   if (topology == Topology::triangles) builder.warn(list.size() % 3, "indices left over that make no triangle");
 }
 
-/// Into the world. Normals go by the inverse transpose, which is the cofactor matrix over the determinant; a mirroring
-/// transform turns the winding and the handedness of the tangent frame round.
-void transform(Builder& builder, const glm::dmat4& world) {
-  constexpr double farthest = 1e15;  // squares of it still fit a float
+/// Adds the morph targets (glTF 2.0, section 3.7.2.2).
+void morph(Builder& builder, const std::vector<double>& weights) {
+  const std::size_t count = std::min(builder.primitive.targets.size(), weights.size());
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto weight = static_cast<float>(weights[t]);
+    if (weight == 0.0F) continue;
+    const auto add = [&](const std::string& name, auto to) {
+      const std::vector<float> values = read_attribute(builder, builder.primitive.targets[t], name, 3);
+      for (std::size_t i = 0; i < values.size() / 3; ++i)
+        to(builder.vertices[i], weight * glm::vec3{values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+    };
+    add("POSITION", [](Vertex& vertex, const glm::vec3& shift) { vertex.position += shift; });
+    if (builder.has_normals) add("NORMAL", [](Vertex& vertex, const glm::vec3& shift) { vertex.normal += shift; });
+    if (builder.has_tangents)
+      add("TANGENT", [](Vertex& vertex, const glm::vec3& shift) { vertex.tangent += glm::vec4{shift, 0.0F}; });
+  }
+}
+
+/// The transforms of all vertices by the joints of a skin; empty if the primitive does not name joints. Weights that do
+/// not sum to 1 are divided by their sum, and without a sum a vertex follows its first joint.
+std::vector<glm::dmat4> skinned(Builder& builder, const std::vector<glm::dmat4>& joints) {
+  std::vector<glm::dmat4> out(builder.vertices.size(), glm::dmat4{0.0});
+  std::vector<double> sums(out.size(), 0.0);
+  std::vector<std::size_t> first(out.size(), 0);
+  for (int set = 0;; ++set) {
+    const auto named = read_attribute(builder, fmt::format("JOINTS_{}", set), 4);
+    const auto weights = read_attribute(builder, fmt::format("WEIGHTS_{}", set), 4);
+    if (named.empty() || weights.empty()) {
+      if (set == 0) return {};
+      break;
+    }
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      const auto joint = static_cast<std::size_t>(std::max(named[i], 0.0F));
+      if (joint >= joints.size())
+        refuse_gltf(fmt::format("vertex {}", i / 4), fmt::format("names joint {} of {}", joint, joints.size()));
+      if (set == 0 && i % 4 == 0) first[i / 4] = joint;
+      const double weight = std::isfinite(weights[i]) ? std::max(weights[i], 0.0F) : 0.0;
+      out[i / 4] += weight * joints[joint];
+      sums[i / 4] += weight;
+    }
+  }
+  constexpr double rounding = 0.02;  // of four weights in bytes
+  builder.warn(
+      static_cast<std::size_t>(std::ranges::count_if(sums, [](double sum) { return std::abs(sum - 1.0) > rounding; })),
+      "vertices whose joints' weights do not sum to 1 were weighed by their sum");
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = sums[i] > 0.0 ? out[i] / sums[i] : joints[first[i]];
+  return out;
+}
+
+/// Into the world. Normals go by the inverse transpose, which is the cofactor matrix over the determinant.
+void move(Vertex& vertex, const glm::dmat4& world, double sign) {
   const glm::dmat3 linear{world};
-  const double determinant = glm::determinant(linear);
-  const double sign = determinant < 0.0 ? -1.0 : 1.0;
   const glm::dmat3 cofactors{glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                              glm::cross(linear[0], linear[1])};
+  vertex.position = glm::vec3{world * glm::dvec4{glm::dvec3{vertex.position}, 1.0}};
+  // Through double and scaled to about 1: tiny node scales would underflow in float.
+  const glm::dvec3 normal = sign * (cofactors * glm::dvec3{vertex.normal});
+  const glm::dvec3 tangent = linear * glm::dvec3{vertex.tangent};
+  const double normal_length = glm::length(normal), tangent_length = glm::length(tangent);
+  vertex.normal = normal_length > 0.0 ? glm::vec3{normal / normal_length} : glm::vec3{0.0F};
+  const glm::vec3 direction = tangent_length > 0.0 ? glm::vec3{tangent / tangent_length} : glm::vec3{0.0F};
+  vertex.tangent = {direction, (vertex.tangent.w < 0.0F ? -1.0F : 1.0F) * static_cast<float>(sign)};
+}
+
+/// A mirroring transform of a node turns the winding and the handedness of the tangent frame round. Joints replace it.
+void transform(Builder& builder, const MeshPose& pose) {
+  const std::vector<glm::dmat4> by_joints =
+      pose.joints.empty() ? std::vector<glm::dmat4>() : skinned(builder, pose.joints);
+  const double sign = by_joints.empty() && glm::determinant(glm::dmat3{pose.world}) < 0.0 ? -1.0 : 1.0;
+  constexpr float farthest = 1e15F;  // squares of it still fit a float
   for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
     Vertex& vertex = builder.vertices[i];
-    const glm::dvec3 position{world * glm::dvec4{glm::dvec3{vertex.position}, 1.0}};
+    move(vertex, by_joints.empty() ? pose.world : by_joints[i], sign);
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(std::abs(position[axis]) <= farthest)) {
+      if (!(std::abs(vertex.position[axis]) <= farthest))
         refuse_gltf(fmt::format("vertex {}", i), fmt::format("is beyond {:g} m in the world", farthest));
-      }
-    }
-    vertex.position = glm::vec3{position};
-    // Through double and scaled to about 1: tiny node scales would underflow in float.
-    const glm::dvec3 normal = sign * (cofactors * glm::dvec3{vertex.normal});
-    const glm::dvec3 tangent = linear * glm::dvec3{vertex.tangent};
-    const double normal_length = glm::length(normal), tangent_length = glm::length(tangent);
-    vertex.normal = normal_length > 0.0 ? glm::vec3{normal / normal_length} : glm::vec3{0.0F};
-    const glm::vec3 direction = tangent_length > 0.0 ? glm::vec3{tangent / tangent_length} : glm::vec3{0.0F};
-    vertex.tangent = {direction, (vertex.tangent.w < 0.0F ? -1.0F : 1.0F) * static_cast<float>(sign)};
-  }
-  if (determinant < 0.0) {
-    for (std::size_t i = 0; i + 2 < builder.indices.size(); i += 3) {
-      std::swap(builder.indices[i + 1], builder.indices[i + 2]);
     }
   }
+  if (sign > 0.0) return;
+  for (std::size_t i = 0; i + 2 < builder.indices.size(); i += 3)
+    std::swap(builder.indices[i + 1], builder.indices[i + 2]);
 }
 
 // Those of the normal map; where only the coat has one, of the coat's.
@@ -196,7 +253,7 @@ void complete_frames(Builder& builder, const Material& material) {
   }
 }
 
-std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Material& material) {
+std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Material& material) {
   const int mode = builder.primitive.mode;
   if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
     refuse_gltf("mode", fmt::format("{} is none of 0 to 6", mode));
@@ -210,6 +267,7 @@ std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Mat
     return std::nullopt;
   }
   read_frames(builder);
+  morph(builder, pose.weights);
   const bool has_set0 = read_texture_coordinates(builder, "TEXCOORD_0", &Vertex::uv0);
   const bool has_set1 = read_texture_coordinates(builder, "TEXCOORD_1", &Vertex::uv1);
   check_map_coordinates(builder, material, has_set0, has_set1);
@@ -217,10 +275,9 @@ std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Mat
   if (builder.primitive.attributes.contains("COLOR_1")) {
     add_once(builder.warnings, "vertex colours beyond the first set are left out");
   }
-  if (!builder.primitive.targets.empty()) add_once(builder.warnings, "morph targets are left out");
   read_triangles(builder);
   if (builder.indices.empty()) return std::nullopt;
-  transform(builder, world);
+  transform(builder, pose);
   drop_unused_vertices(builder.vertices, builder.indices);
   complete_frames(builder, material);
   return Mesh{builder.place, std::move(builder.vertices), std::move(builder.indices), 0};
@@ -229,14 +286,14 @@ std::optional<Mesh> convert(Builder& builder, const glm::dmat4& world, const Mat
 }  // namespace
 
 std::optional<Mesh> convert_primitive(const tinygltf::Model& model, int mesh_index, int primitive_index,
-                                      const glm::dmat4& world, const Material& material,
+                                      const MeshPose& pose, const Material& material,
                                       std::vector<std::string>& warnings) {
   const auto& mesh = model.meshes[static_cast<std::size_t>(mesh_index)];
   Builder builder{model,    mesh.primitives[static_cast<std::size_t>(primitive_index)],
                   warnings, fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.name, primitive_index),
                   {},       {}};
   try {
-    return convert(builder, world, material);
+    return convert(builder, pose, material);
   } catch (const Error& error) {
     throw error.within(builder.place);
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/gltf/pose.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -16,12 +17,12 @@ namespace footprint {
 /// Converts a primitive. Missing normals become flat; unusable normals, tangents and texture coordinates are replaced,
 /// with a line in `warnings`. None for points, lines and primitives without a whole triangle. `Mesh::material` is not
 /// set.
-/// world: the node's transform.
+/// pose: how its node places, morphs and skins it.
 /// material: the texture coordinates of its maps determine the tangents.
 /// Throws Error (usage) that names mesh, primitive and vertex: a position that is not finite or beyond 1e15 m,
-/// attributes of different length, or indices out of range.
+/// attributes of different length, or indices or joints out of range.
 [[nodiscard]] std::optional<Mesh> convert_primitive(const tinygltf::Model& model, int mesh, int primitive,
-                                                    const glm::dmat4& world, const Material& material,
+                                                    const MeshPose& pose, const Material& material,
                                                     std::vector<std::string>& warnings);
 
 }  // namespace footprint

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <numbers>
 
@@ -16,6 +15,7 @@
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/gltf/material.hpp"
 #include "renderer/scene/gltf/mesh.hpp"
+#include "renderer/scene/gltf/pose.hpp"
 
 namespace footprint {
 namespace {
@@ -149,6 +149,19 @@ ModelChoice variant_choice(const tinygltf::Model& model, const std::optional<std
   return choice;
 }
 
+// None is taken unless it or a time is given.
+ModelChoice animation_choice(const tinygltf::Model& model, const ModelSelection& wanted) {
+  ModelChoice choice{"animation", {}, {}};
+  for (std::size_t i = 0; i < model.animations.size(); ++i)
+    choice.names.push_back(name_or_number(model.animations[i].name, "animation", i));
+  if (wanted.animation) {
+    choice.taken = find_choice(choice, *wanted.animation);
+  } else if (wanted.time) {
+    choice.taken = find_choice(choice, "0");
+  }
+  return choice;
+}
+
 int material_in_variant(const tinygltf::Primitive& primitive, const std::optional<std::size_t>& variant) {
   const auto found = primitive.extensions.find(variants_extension);
   if (!variant || found == primitive.extensions.end()) return primitive.material;
@@ -165,30 +178,6 @@ int material_in_variant(const tinygltf::Primitive& primitive, const std::optiona
 }
 
 constexpr int deepest_node = 1000;
-
-glm::dvec3 vector_or(const std::vector<double>& values, double otherwise) {
-  return values.size() == 3 ? glm::dvec3{values[0], values[1], values[2]} : glm::dvec3{otherwise};
-}
-
-/// A node's own transform: its matrix, or translation * rotation * scale.
-glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place) {
-  glm::dmat4 local{1.0};
-  if (node.matrix.size() == 16) {
-    for (int i = 0; i < 16; ++i) local[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-    return local;
-  }
-  if (node.rotation.size() == 4) {
-    const auto& q = node.rotation;  // x, y, z, w
-    const glm::dquat rotation{q[3], q[0], q[1], q[2]};
-    const double length = glm::length(rotation);
-    if (!std::isfinite(length) || length < 1e-6) refuse_gltf(place, "the rotation has no length");
-    local = glm::mat4_cast(rotation / length);
-  }
-  const glm::dvec3 scale = vector_or(node.scale, 1.0);
-  for (int axis = 0; axis < 3; ++axis) local[axis] *= scale[axis];
-  local[3] = glm::dvec4{vector_or(node.translation, 0.0), 1.0};
-  return local;
-}
 
 std::vector<int> root_nodes(const tinygltf::Model& model, const std::optional<std::size_t>& scene) {
   if (scene) return model.scenes[*scene].nodes;
@@ -212,8 +201,8 @@ struct PlacedCamera {
 /// Walks the hierarchy and collects the content of nodes.
 class Gatherer {
  public:
-  Gatherer(const GltfDocument& document, const std::optional<std::size_t>& variant, Model& result)
-      : document_(document), variant_(variant), result_(result), materials_(document, result.warnings) {}
+  Gatherer(const GltfDocument& document, const Pose& pose, const std::optional<std::size_t>& variant, Model& result)
+      : document_(document), pose_(pose), variant_(variant), result_(result), materials_(document, result.warnings) {}
 
   void gather(const std::vector<int>& roots) {
     std::vector<Pending> stack;
@@ -232,7 +221,7 @@ class Gatherer {
       }
       seen[static_cast<std::size_t>(index)] = true;
       if (depth > deepest_node) refuse_gltf(place, fmt::format("is more than {} nodes deep", deepest_node));
-      const auto& node = document_.model.nodes[static_cast<std::size_t>(index)];
+      const auto& node = pose_.nodes()[static_cast<std::size_t>(index)];
       const glm::dmat4 world = parent * local_transform(node, place);
       gather_node(node, world);
       push(node.children, world, depth + 1);
@@ -262,12 +251,12 @@ class Gatherer {
     if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end()) {
       result_.lights.push_back(convert_light(document_.model, light->second.Get("light").GetNumberAsInt(), world));
     }
-    if (node.skin >= 0) add_once(result_.warnings, "skins are left out: meshes stand in their rest pose");
     if (node.mesh < 0) return;
     const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
+    const MeshPose pose = pose_.of_mesh(node, world);
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const int material = materials_.use(material_in_variant(mesh.primitives[i], variant_));
-      auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), world,
+      auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), pose,
                                     materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
       if (part) merge(std::move(*part), material);
     }
@@ -288,6 +277,7 @@ class Gatherer {
   }
 
   const GltfDocument& document_;
+  const Pose& pose_;
   std::optional<std::size_t> variant_;
   Model& result_;
   std::vector<PlacedCamera> cameras_;
@@ -305,7 +295,6 @@ void warn_left_out(const tinygltf::Model& source, Model& result) {
                fmt::format("extension {:.80} is left out{}{}", name, layer.empty() ? "" : ": ", layer));
     }
   }
-  if (!source.animations.empty()) add_once(result.warnings, "animations are left out");
 }
 
 /// Selects the requested camera, else the first.
@@ -336,10 +325,13 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
     const std::vector<int> roots = root_nodes(document.model, scene.taken);
     const ModelChoice variant = variant_choice(document.model, selection.variant);
     require_memory(decoded_map_bytes(document), "decoding the model's maps", "scale its textures down, or free memory");
-    Gatherer gathered(document, variant.taken, result);
+    const ModelChoice animation = animation_choice(document.model, selection);
+    const Pose pose(document.model, animation.taken, selection.time.value_or(0.0));
+    Gatherer gathered(document, pose, variant.taken, result);
     gathered.gather(roots);
     take_camera(document.model, gathered, selection.camera, result);
     result.choices.push_back(variant);
+    result.choices.push_back(animation);
     std::erase_if(result.choices, [](const ModelChoice& choice) { return choice.names.empty(); });
   } catch (const Error& error) {
     throw error.within(file.string());

@@ -28,7 +28,11 @@ ModelSettings read_model(const TomlTable& table, const std::filesystem::path& fo
   return {.candidates = read_candidates(table, folder, "name the model file to draw"),
           .package = table.word("package").value_or(""),
           .unwrap = table.boolean("unwrap").value_or(false),
-          .selection = {table.word("scene"), table.word("camera"), table.word("variant")}};
+          .selection = {.scene = table.word("scene"),
+                        .camera = table.word("camera"),
+                        .variant = table.word("variant"),
+                        .animation = table.word("animation"),
+                        .time = table.number("time", {-largest_seconds, largest_seconds})}};
 }
 
 PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& folder) {
@@ -268,7 +272,8 @@ Placement read_placement(const TomlTable& table) {
 
 decltype(PartSettings::content) read_content(const TomlTable& table, const std::filesystem::path& folder,
                                              std::span<const Surface> surfaces) {
-  const auto model = table.table("model", {"file", "files", "package", "unwrap", "scene", "camera", "variant"});
+  const auto model =
+      table.table("model", {"file", "files", "package", "unwrap", "scene", "camera", "variant", "animation", "time"});
   const auto plane = table.table("plane", {"size", "normal_map", "normal_channels", "normal_scale", "base_color_map",
                                            "metallic_roughness_map", "roughness", "metallic"});
   const auto surface = table.table("surface", surface_keys);

@@ -1,0 +1,48 @@
+// The pose of a glTF file at a time of an animation: the transforms of its nodes, morph weights and joints.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace footprint {
+
+/// A node's own transform: its matrix, or translation * rotation * scale. Throws Error (usage) that names `place`: a
+/// rotation without length.
+[[nodiscard]] glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place);
+
+/// How a node poses its mesh.
+struct MeshPose {
+  glm::dmat4 world{1.0};           ///< the node's transform; with joints it has no effect (glTF 2.0, section 3.7.3.3)
+  std::vector<glm::dmat4> joints;  ///< of its skin, from the mesh to the world; empty: no skin
+  std::vector<double> weights;     ///< of its morph targets; those that are missing are 0
+};
+
+/// All nodes of a file at one time.
+class Pose {
+ public:
+  /// animation: index; none: every node has the transform and the weights that the file gives it.
+  /// time: seconds; before the first and after the last key the values are theirs.
+  /// Throws Error (usage) that names the animation: keys that do not rise, a wrong number of values, an animated node
+  /// with a matrix.
+  Pose(const tinygltf::Model& model, const std::optional<std::size_t>& animation, double time);
+
+  [[nodiscard]] const std::vector<tinygltf::Node>& nodes() const { return nodes_; }
+
+  /// The pose of the mesh of a node whose transform is `world`. Throws Error (usage): a skin whose joints are no tree,
+  /// or with fewer inverse bind matrices than joints.
+  [[nodiscard]] MeshPose of_mesh(const tinygltf::Node& node, const glm::dmat4& world) const;
+
+ private:
+  [[nodiscard]] glm::dmat4 world_of(int node) const;
+
+  const tinygltf::Model& model_;
+  std::vector<tinygltf::Node> nodes_;
+  std::vector<int> parents_;  // -1: a root
+};
+
+}  // namespace footprint

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/map_options.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
@@ -23,12 +24,14 @@ namespace footprint {
 namespace {
 
 constexpr const char* ndf_examples =
-    "MAP is an EXR of unit normals (x, y, z, each -1 to 1) or a normal map as an image (OpenGL convention). Texture\n"
-    "coordinates start with (0, 0) at the top left.\n"
+    "MAP is an EXR of unit normals (x, y, z, each -1 to 1) or a normal map as an image (OpenGL convention), or "
+    "heights\n"
+    "with --height-scale. Texture coordinates start with (0, 0) at the top left.\n"
     "\n"
     "Examples:\n"
     "  footprint ndf normals.png -o ndf\n"
     "  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --region 0,0,0.25,0.25 -o ndf\n"
+    "  footprint ndf heights.png --height-scale 0.02 -o ndf\n"
     "  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf";
 
 struct NdfArguments {
@@ -36,6 +39,7 @@ struct NdfArguments {
 
   RunOptions run;
   std::string source;
+  MapOptions map;
   std::string material;
   std::string footprint, texels;
   std::string lobe;
@@ -85,7 +89,8 @@ void run_ndf(const NdfArguments& arguments) {
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
   const std::optional<Lobe> lobe =
       arguments.lobe.empty() ? std::nullopt : std::optional(parse_lobe("--lobe", arguments.lobe));
-  NdfSource source = load_ndf_source(arguments.source, arguments.material, settings.run.scene_library);
+  NdfSource source =
+      load_ndf_source(arguments.map.of(arguments.source), arguments.material, settings.run.scene_library);
   if (lobe) source.material = with_lobe(std::move(source.material), *lobe);
   settings.footprint = footprint_of(arguments, source.material);
 
@@ -115,6 +120,7 @@ void add_ndf_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("ndf", "Show each method's NDF of one footprint next to the exact one");
   const auto arguments = std::make_shared<NdfArguments>(*command);
   command->add_option("source", arguments->source, "Scene, model or normal map")->type_name("SCENE|MAP")->required();
+  arguments->map.add_to(*command);
   auto* footprint =
       command->add_option("--region", arguments->footprint, "Footprint in texture coordinates; default: the whole map")
           ->type_name("U0,V0,U1,V1");

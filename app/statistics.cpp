@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/map_options.hpp"
 #include "app/messages.hpp"
 #include "renderer/bake/lobe_errors.hpp"
 #include "renderer/bake/map_statistics.hpp"
@@ -38,6 +38,7 @@ constexpr const char* statistics_examples =
     "  footprint statistics normals.png --alpha 0.2";
 
 struct StatisticsArguments {
+  MapOptions how;
   std::string map, gloss, roughness;
   std::optional<double> alpha;
   bool json = false;
@@ -76,14 +77,13 @@ Image alphas_of(const StatisticsArguments& arguments) {
 }
 
 Statistics statistics_of(const StatisticsArguments& arguments) {
-  const Image stored = read_image(arguments.map, Transfer::linear);
-  const bool is_exr = std::filesystem::path(arguments.map).extension() == ".exr";
-  const Image normals = of_file(arguments.map, [&] {
-                          return is_exr ? decode_unit_normals(stored) : decode_normal_map(stored, 1.0);
-                        }).image;
-  Statistics statistics{.width = stored.width,
-                        .height = stored.height,
-                        .unit_share = is_exr ? 1.0 : unit_share(stored),
+  const NormalFile file = arguments.how.of(arguments.map);
+  std::vector<std::string> faults;  // the share of unit vectors tells them
+  const Image normals = read_normals(file, faults).decoded();
+  const bool encoded = !file.heights && !is_exr(file.path);
+  Statistics statistics{.width = normals.width,
+                        .height = normals.height,
+                        .unit_share = encoded ? unit_share(read_image(file.path, Transfer::linear)) : 1.0,
                         .correlation = {},
                         .mean_alpha = {},
                         .levels = map_statistics(normals),
@@ -145,7 +145,10 @@ std::string json_of(const Statistics& statistics) {
 void add_statistics_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("statistics", "Describe a normal map by numbers, per footprint size");
   const auto arguments = std::make_shared<StatisticsArguments>();
-  command->add_option("map", arguments->map, "A normal map")->type_name("FILE")->required();
+  command->add_option("map", arguments->map, "A normal map, or heights with --height-scale")
+      ->type_name("FILE")
+      ->required();
+  arguments->how.add_to(*command);
   command->add_option("--gloss", arguments->gloss, "A gloss map of the same size, for its correlation with the spread")
       ->type_name("FILE");
   auto* roughness = command

@@ -220,7 +220,7 @@ std::string table_of(const Request& request) {
   for (const std::string& lobe : request.lobes) {
     std::vector<std::vector<Errors>> sums(request.levels.size());
     for (const std::string& map : request.maps) {
-      const NdfSource source = load_ndf_source(map, "", {});
+      const NdfSource source = load_ndf_source({.path = map}, "", {});
       const MapRank rank(context, request,
                          cut(with_lobe(source.material, parse_lobe("--lobes", lobe)), request.middle));
       for (std::size_t i = 0; i < sums.size(); ++i) add_logs(rank.errors_at(request.levels[i]), sums[i]);

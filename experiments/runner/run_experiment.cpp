@@ -132,7 +132,7 @@ FurtherFigures measured_figures(const Experiment& experiment, const Scene& scene
   FurtherFigures figures;
   ProgressParts parts(progress, static_cast<double>(experiment.footprints.size() + 1));
   for (const NamedFootprint& footprint : experiment.footprints) {
-    const NdfSource source = load_ndf_source(experiment.run.scene, "", experiment.run.scene_library);
+    const NdfSource source = load_ndf_source({.path = experiment.run.scene}, "", experiment.run.scene_library);
     std::ranges::move(
         inspected(experiment, source, footprint, folder, parts.next(1, "footprint " + footprint.name + ": ")),
         std::back_inserter(figures.ndf));

@@ -43,12 +43,11 @@ bool names_a_map(const std::string& path) {
   return fs::is_regular_file(path, ignored) && std::ranges::find(scene_extensions, extension) == scene_extensions.end();
 }
 
-NdfSource load_map(const std::string& path) {
-  NdfSource source{path, true, {}, {}};
-  source.material.name = fs::path(path).stem().string();
+NdfSource load_map(const NormalFile& map) {
+  NdfSource source{map.path.string(), true, {}, {}};
+  source.material.name = map.path.stem().string();
   source.material.brdf = {NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};
-  source.material.normal_map = {
-      fs::path(path).filename().string(), read_normal_map(path, 1.0, NormalChannels::xyz, source.notes), {}};
+  source.material.normal_map = {map.path.filename().string(), read_normals(map, source.notes), {}};
   source.material = with_lobe(std::move(source.material), {NormalDistribution::blinn_phong, default_exponent});
   return source;
 }
@@ -321,10 +320,15 @@ Material with_lobe(Material material, const Lobe& lobe) {
   return material;
 }
 
-NdfSource load_ndf_source(const std::string& path, const std::string& material, const SceneLibrary& library) {
+NdfSource load_ndf_source(const NormalFile& map, const std::string& material, const SceneLibrary& library) {
+  const std::string path = map.path.string();
   if (names_a_map(path)) {
-    if (material.empty()) return load_map(path);
+    if (material.empty()) return load_map(map);
     throw Error(ErrorKind::usage, "--material", fmt::format("{} is a map and has no materials", path), "leave it out");
+  }
+  if (map.heights) {
+    throw Error(ErrorKind::usage, path, "is a scene, which says itself what its heights are",
+                "name the map, or give the scene a `height_map`");
   }
   const Scene scene = load_scene(path, library);
   NdfSource source{path, false, scene.materials.at(material_index(scene, material)), scene.warnings};

@@ -9,6 +9,7 @@
 #include "renderer/core/progress.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/scene/material.hpp"
+#include "renderer/scene/normal_file.hpp"
 #include "renderer/scene/surface.hpp"
 #include "results/report/ndf_report.hpp"
 
@@ -22,10 +23,10 @@ struct NdfSource {
   std::vector<std::string> notes;  ///< warnings of the loader, one line each
 };
 
-/// Reads SCENE|MAP: an image file as a normal map (EXR: unit normals, x, y, z of -1 to 1; any other: 2 c - 1, as glTF
-/// has it) under the lobe blinn_phong:64, anything else as a scene, of which `material` (a name or a number from 0;
-/// empty: the only one) is taken. Errors (usage): what the loaders refuse; no such material, or several and none named.
-[[nodiscard]] NdfSource load_ndf_source(const std::string& path, const std::string& material,
+/// Reads SCENE|MAP: an image file as read_normals does under the lobe blinn_phong:64, anything else as a scene, of
+/// which `material` (a name or a number from 0; empty: the only one) is taken. Errors (usage): what the loaders refuse;
+/// no such material, or several and none named; heights of a scene.
+[[nodiscard]] NdfSource load_ndf_source(const NormalFile& source, const std::string& material,
                                         const SceneLibrary& library);
 
 /// The material with `lobe` in place of its own distribution and roughness.

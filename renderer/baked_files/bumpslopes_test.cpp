@@ -11,6 +11,7 @@
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -112,6 +113,24 @@ TEST(Bumpslopes, OfHeightsAreTurnedRound) {
   replace_moments(chain, taken);
   EXPECT_NEAR(decode_level(taken.textures[0], 0).at(8, 8)[1], -0.1, 1e-5);  // the slope along v
   EXPECT_NEAR(decode_level(taken.textures[1], 0).at(8, 8)[0], 0.02, 1e-5);  // -0.2 x -0.1
+}
+
+// Both by Sobel's filter, ours in widths of the map. OpenImageIO takes the border for black.
+TEST(Bumpslopes, OfHeightsAreThoseOfOurSobelFilter) {
+  constexpr int size = 24;
+  Image heights(size, size, 1);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x)
+      heights.at(x, y)[0] = static_cast<float>(std::sin(0.7 * x) + std::cos(0.4 * y + 0.2 * x));
+  }
+  const ExrChain chain = read_exr_chain(made_by_openimageio(heights, "height"));
+  const Image theirs = normals_of_bumpslopes(chain, "heights");
+  const Image ours = normals_of_heights(heights, 1.0 / size, {.filter = SlopeFilter::sobel});
+  for (int y = 1; y + 1 < size; ++y) {
+    for (int x = 1; x + 1 < size; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(ours.at(x, y)[c], theirs.at(x, y)[c], 1e-6) << x << " " << y;
+    }
+  }
 }
 
 TEST(Bumpslopes, OfAnotherLayoutAreRefused) {

@@ -40,6 +40,10 @@ std::vector<Case> words() {
       row("NdfOfWrongMethod", {"--methods", "toxvig"}, {"toxvig", "did you mean `toksvig`?"}),
       row("NdfOfWrongMethodOption", {"--methods", "toksvig:spred=2"}, {"did you mean `spread`?"}),
       row("MaterialOfAMap", {"--material", "0"}, {"--material", "is a map"}),
+      row("HeightsOfNoNumber", {"--height-scale", "nan"}, {"--height-scale"}),
+      row("WrongSlopeFilter", {"--height-scale", "1", "--slope-filter", "sobl"},
+          {"--slope-filter", "`sobl`", "`sobel`"}),
+      row("SlopeFilterOfNormals", {"--slope-filter", "sobel"}, {"--slope-filter", "--height-scale"}),
       row("NoRings", {"--resolution", "0"}, {"--resolution", "16"}),
       row("NoPicture", {"--picture-size", "0"}, {"--picture-size", "16"}),
   };

@@ -37,6 +37,12 @@ std::vector<Case> scenes() {
       row("LobesBesideAMap", {"scene.toml:7: ", "`kappa` in [maps] excludes [[brdf.lobe]]"},
           "[plane]\n[brdf]\ndistribution = \"vmf\"\n[[brdf.lobe]]\naxis = [0, 0, 1]\nkappa = 128\n"
           "[maps.kappa]\nfile = \"kappa.exr\"\n"),
+      row("HeightsBesideNormals", {"scene.toml:3: ", "`height_map` in [plane] excludes `normal_map`"},
+          "[plane]\nnormal_map = \"n.png\"\nheight_map = { file = \"h.png\", scale = 0.1 }\n"),
+      row("HeightsWithoutScale", {"scene.toml:2: ", "`scale`", "missing"},
+          "[plane]\nheight_map = { file = \"h.png\" }\n"),
+      row("MissingHeights", {"scene.toml, ", "missing.png: no such file"},
+          "[plane]\nheight_map = { file = \"missing.png\", scale = 0.1 }\n"),
       row("MissingMap", {"scene.toml, ", "missing.png: no such file"}, "[plane]\nnormal_map = \"missing.png\"\n"),
   };
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/core/names.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
 #include "renderer/scene/camera.hpp"
 #include "tests/hard_cases/hard_case.hpp"
 #include "tests/hard_cases/hard_maps.hpp"
@@ -142,6 +143,26 @@ Scene polished_walls() {
 
 Scene mirrors() { return square(noise(16, 16, 0.5, 9), 0.0F); }
 
+// Heights 0 in the left half and `height` in the right half.
+Image plateaus(float height) {
+  Image heights(8, 8, 1);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 4; x < 8; ++x) heights.at(x, y)[0] = height;
+  }
+  return heights;
+}
+
+// A rise of half a width over two texels of eight is a slope of 2, up in the middle and down at the border.
+Scene height_step() { return square(normals_of_heights(plateaus(1.0F), 0.5), 0.4F); }
+Scene slopes_of_step() {
+  return square(map_of(8, 8,
+                       [](int x, int) {
+                         const double rise = x == 3 || x == 4 ? 2.0 : x == 7 || x == 0 ? -2.0 : 0.0;
+                         return glm::dvec3(-rise, 0.0, 1.0);
+                       }),
+                0.4F);
+}
+
 }  // namespace
 
 std::span<const PictureCase> picture_cases() {
@@ -194,6 +215,14 @@ std::span<const PictureCase> picture_cases() {
         {"degenerate_triangles", "points, lines, one uv everywhere, a mirrored map", degenerate},
         {"environment_with_a_sun", "one texel of 1e6 in an environment of zeros", [] { return surrounded(1e6F); }},
         {"environment_with_a_small_sun", "one texel of 1e6 in 512 columns", [] { return surrounded(1e6F, 512); }},
+        {"heights_1x1", "a height map of one texel: nothing to filter",
+         [] { return square(normals_of_heights(Image(1, 1, 1, 7.0F), 100.0), 0.4F); }, true},
+        {.name = "heights_step",
+         .description = "heights of two plateaus: the picture of the normals of their steps",
+         .scene = height_step,
+         .twin = slopes_of_step},
+        {"heights_cliff", "heights of two plateaus, 3e38 widths apart",
+         [] { return square(normals_of_heights(plateaus(3e38F), 1.0), 0.4F); }},
         {"black_environment", "an environment of zeros but for one ring", [] { return surrounded(0.0F); }},
         {.name = "mirrored_uvs",
          .description = "a map turned over, and mirrored back by texture coordinates: the same picture",

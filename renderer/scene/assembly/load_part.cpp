@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
-#include <iterator>
 #include <memory>
 
 #include "renderer/core/error.hpp"
@@ -44,17 +43,19 @@ TextureMap make_map(const std::filesystem::path& file, MapTexels texels, glm::ve
   return map;
 }
 
+TextureMap make_map(const NormalFile& file, std::vector<std::string>& warnings, glm::vec2 uv = glm::vec2(1.0F)) {
+  TextureMap map = make_map(file.path, read_normals(file, warnings), uv);
+  if (file.heights) map.coordinates.wrap = file.heights->wrap;
+  return map;
+}
+
 Model load_content(const PlaneSettings& settings) {
   Model model;
   Material material;
   material.name = "plane";
   material.roughness = settings.roughness;
   material.metallic = settings.metallic;
-  if (settings.normal_map) {
-    const auto& file = *settings.normal_map;
-    material.normal_map =
-        make_map(file, read_normal_map(file, settings.normal_scale, settings.normal_channels, model.warnings));
-  }
+  if (settings.normals) material.normal_map = make_map(*settings.normals, model.warnings);
   if (settings.base_color_map) {
     const auto& file = *settings.base_color_map;
     material.base_color_map = make_map(file, MapTexels::packed(to_rgba(read_image(file, Transfer::srgb))));
@@ -120,11 +121,8 @@ Model load_content(const DressedModel& content) {
   return model;
 }
 
-TextureMap load_layer(const LayerFile& file, double strength, std::vector<std::string>& warnings) {
-  if (!file.heights) return make_map(file.path, read_normal_map(file.path, strength, NormalChannels::xyz, warnings));
-  NormalMap map = normals_of_heights(read_image(file.path, Transfer::linear), strength);
-  std::ranges::move(describe_faults(map, file.path.filename().string()), std::back_inserter(warnings));
-  return make_map(file.path, computed(std::move(map.image)));
+TextureMap load_layer(const NormalFile& file, double /*strength*/, std::vector<std::string>& warnings) {
+  return make_map(file, warnings);
 }
 
 TextureMap load_layer(const SurfaceContent& content, double strength, std::vector<std::string>& /*warnings*/) {
@@ -224,20 +222,24 @@ Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution 
 
 // The loaded maps of MapSettings, each over a whole material; shared by all materials.
 struct LaidMaps {
-  std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse;
+  std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse, normals;
 };
 
-LaidMaps load_maps(const PartSettings& settings) {
+LaidMaps load_maps(const PartSettings& settings, std::vector<std::string>& warnings) {
   const auto load = [&](const std::optional<MapFile>& from, const auto& read) -> std::optional<TextureMap> {
     if (!from) return std::nullopt;
     return make_map(from->file, MapTexels::packed(read(from->file)), from->uv.value_or(settings.tiling));
   };
   const NormalDistribution distribution = settings.brdf.distribution.value_or(NormalDistribution::ggx);
+  std::optional<TextureMap> normals;
+  if (const auto& laid = settings.maps.normals)
+    normals = make_map(laid->file, warnings, laid->uv.value_or(settings.tiling));
   const auto read_colors = [](const auto& file) { return read_image(file, Transfer::srgb); };
   return {load(settings.maps.roughness, [](const auto& file) { return to_rgb(read_image(file, Transfer::linear)); }),
           load(settings.maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution); }),
           load(settings.maps.specular, [&](const auto& file) { return to_rgb(read_colors(file)); }),
-          load(settings.maps.diffuse, [&](const auto& file) { return to_rgba(read_colors(file)); })};
+          load(settings.maps.diffuse, [&](const auto& file) { return to_rgba(read_colors(file)); }),
+          std::move(normals)};
 }
 
 void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material) {
@@ -247,6 +249,7 @@ void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material)
     material.dielectric_specular = settings.specular.value_or(glm::vec3(1.0F));
     material.metallic = 0.0F;
   }
+  if (maps.normals) material.normal_map = maps.normals;
   if (maps.lobe_parameter) material.lobe_parameter_map = maps.lobe_parameter;
   if (maps.roughness) {
     material.lobes.clear();
@@ -266,10 +269,7 @@ std::optional<ClearCoat> load_coat(const CoatSettings& settings, std::vector<std
   ClearCoat coat;
   coat.weight = settings.weight;
   coat.roughness = settings.roughness;
-  if (settings.normal_map) {
-    const auto& file = *settings.normal_map;
-    coat.normal_map = make_map(file, read_normal_map(file, 1.0, NormalChannels::xyz, warnings));
-  }
+  if (settings.normals) coat.normal_map = make_map(*settings.normals, warnings);
   return coat;
 }
 
@@ -378,7 +378,7 @@ Model load_part(const PartSettings& settings) {
   Model model = std::visit([](const auto& content) { return load_content(content); }, settings.content);
   std::optional<TextureMap> layer;
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
-  const LaidMaps maps = load_maps(settings);
+  const LaidMaps maps = load_maps(settings, model.warnings);
   for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);
   if (settings.coat) {
     const std::optional<ClearCoat> coat = load_coat(*settings.coat, model.warnings);

@@ -10,12 +10,15 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <iterator>
+#include <utility>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 
 namespace footprint {
 namespace {
+
+constexpr double smallest_z = 1e-6;
 
 /// Clamps to [0, 1]. NaN becomes 0, which std::clamp would not do.
 float clamped_to_unit(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
@@ -35,7 +38,6 @@ glm::dvec3 with_z(const glm::dvec2& xy) { return {xy, std::sqrt(std::max(1.0 - g
 
 template <class Decode>
 NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scale) {
-  constexpr double smallest_z = 1e-6;
   NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
   std::atomic<std::size_t> invalid = 0, inverted = 0;
   tbb::parallel_for(0, stored.height, [&](int y) {
@@ -103,6 +105,43 @@ void require_unit_vectors(const Image& stored) {
   }
 }
 
+void require_heights(const Image& stored) {
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      if (std::isfinite(stored.at(x, y)[0])) continue;
+      throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
+                  fmt::format("contains {}, which is not a height", stored.at(x, y)[0]),
+                  "store finite heights in the first channel");
+    }
+  }
+}
+
+// A row or column from -1 to `size`, within the map. A mirrored map repeats its border texel.
+int neighbour(int at, int size, Wrap wrap) {
+  return wrap == Wrap::repeat ? (at + size) % size : std::clamp(at, 0, size - 1);
+}
+
+// The weights of a difference two texels wide: of both rows beside the texel's own, and of its own.
+std::pair<double, double> row_weights(SlopeFilter filter) {
+  switch (filter) {
+    case SlopeFilter::sobel:
+      return {1.0 / 8.0, 2.0 / 8.0};
+    case SlopeFilter::scharr:
+      return {3.0 / 32.0, 10.0 / 32.0};
+    case SlopeFilter::central:
+      break;
+  }
+  return {0.0, 0.5};
+}
+
+MapTexels stored_heights(const Image& stored, double scale, const HeightSettings& settings) {
+  Image heights(stored.width, stored.height, 1);
+  for (std::size_t i = 0; i < heights.texel_count(); ++i)
+    heights.texels[i] = stored.texels[i * static_cast<std::size_t>(stored.channels)];
+  const auto decode = [scale, settings](const Image& again) { return normals_of_heights(again, scale, settings); };
+  return MapTexels::packed(decode(heights), heights, decode);
+}
+
 }  // namespace
 
 NormalMap decode_normal_map(const Image& stored, double scale, NormalChannels channels) {
@@ -126,16 +165,16 @@ MapTexels stored_normals(const Image& stored, const std::function<NormalMap(cons
   return MapTexels::packed(map.image, stored, [decode](const Image& again) { return decode(again).image; });
 }
 
-MapTexels read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels,
-                          std::vector<std::string>& faults) {
-  const Image stored = read_image(file, Transfer::linear);
-  const auto decode = [scale, channels, unit = is_exr(file)](const Image& image) {
-    return unit ? decode_unit_normals(image, scale, channels) : decode_normal_map(image, scale, channels);
-  };
+MapTexels read_normals(const NormalFile& file, std::vector<std::string>& faults) {
+  const Image stored = read_image(file.path, Transfer::linear);
   try {
-    return stored_normals(stored, decode, file.filename().string(), faults);
+    if (file.heights) return stored_heights(stored, file.scale, *file.heights);
+    const auto decode = [scale = file.scale, channels = file.channels, unit = is_exr(file.path)](const Image& image) {
+      return unit ? decode_unit_normals(image, scale, channels) : decode_normal_map(image, scale, channels);
+    };
+    return stored_normals(stored, decode, file.path.filename().string(), faults);
   } catch (const Error& error) {
-    throw error.within(file.string());
+    throw error.within(file.path.string());
   }
 }
 
@@ -147,23 +186,30 @@ void scale_slopes(Image& normals, double strength) {
   }
 }
 
-NormalMap normals_of_heights(const Image& stored, double strength) {
-  NormalMap map{Image(stored.width, stored.height, 4), 0, 0};
+Image normals_of_heights(const Image& stored, double scale, const HeightSettings& settings) {
+  require_heights(stored);
   const auto height = [&](int x, int y) {
     return static_cast<double>(
-        stored.at((x + stored.width) % stored.width, (y + stored.height) % stored.height).front());
+        stored.at(neighbour(x, stored.width, settings.wrap[0]), neighbour(y, stored.height, settings.wrap[1]))[0]);
   };
-  const double per_texel = 0.5 * strength * stored.width;  // texels are square
-  for (int y = 0; y < stored.height; ++y) {
+  const double per_texel = scale * stored.width;  // texels are square
+  const auto [side, middle] = row_weights(settings.filter);
+  const std::array weights{side, middle, side};
+  Image map(stored.width, stored.height, 4, 1.0F);
+  tbb::parallel_for(0, stored.height, [&](int y) {
     for (int x = 0; x < stored.width; ++x) {
-      const double dx = per_texel * (height(x + 1, y) - height(x - 1, y));
-      const double dy = per_texel * (height(x, y - 1) - height(x, y + 1));  // rows run down, the normal's y up
-      const bool valid = std::isfinite(dx) && std::isfinite(dy);
-      map.invalid += valid ? 0 : 1;
-      const glm::vec3 normal = valid ? glm::vec3(glm::normalize(glm::dvec3{-dx, -dy, 1.0})) : glm::vec3{0, 0, 1};
-      std::ranges::copy(std::array{normal.x, normal.y, normal.z, valid ? 1.0F : 0.0F}, map.image.at(x, y).begin());
+      glm::dvec2 slope{0.0};
+      for (int i = -1; i <= 1; ++i) {
+        const double weight = per_texel * weights.at(static_cast<std::size_t>(i + 1));
+        slope.x += weight * (height(x + 1, y + i) - height(x - 1, y + i));
+        slope.y += weight * (height(x + i, y - 1) - height(x + i, y + 1));  // rows run down, the normal's y up
+      }
+      const glm::dvec3 normal = glm::normalize(glm::dvec3{-slope, 1.0});
+      const auto out = map.at(x, y);
+      for (int c = 0; c < 2; ++c) out[static_cast<std::size_t>(c)] = static_cast<float>(normal[c]);
+      out[2] = static_cast<float>(std::max(normal.z, smallest_z));
     }
-  }
+  });
   return map;
 }
 

@@ -10,6 +10,7 @@
 #include "renderer/image/image.hpp"
 #include "renderer/scene/map_texels.hpp"
 #include "renderer/scene/material.hpp"
+#include "renderer/scene/normal_file.hpp"
 
 namespace footprint {
 
@@ -31,10 +32,10 @@ struct NormalMap {
 [[nodiscard]] NormalMap decode_unit_normals(const Image& stored, double scale = 1.0,
                                             NormalChannels channels = NormalChannels::xyz);
 
-/// Reads a file of normals: unit normals in an EXR, (n + 1) / 2 in all other formats. Adds faults to `faults`. Throws
-/// Error (usage) that names the file: as above, and as read_image.
-[[nodiscard]] MapTexels read_normal_map(const std::filesystem::path& file, double scale, NormalChannels channels,
-                                        std::vector<std::string>& faults);
+/// Reads a file of heights, or of normals: unit normals in an EXR, (n + 1) / 2 in all other formats. Adds faults to
+/// `faults`. Throws Error (usage) that names the file: as the functions above and normals_of_heights, and as
+/// read_image.
+[[nodiscard]] MapTexels read_normals(const NormalFile& file, std::vector<std::string>& faults);
 
 /// The normals of a stored map, in the form that materials store. Adds faults to `faults`.
 /// decode: one of the functions above.
@@ -44,10 +45,12 @@ struct NormalMap {
 /// Multiplies the slopes of a normal map by `strength`.
 void scale_slopes(Image& normals, double strength);
 
-/// The normals of a tiling map of heights, by central differences. A texel next to a height that is not finite gets
-/// weight 0.
-/// strength: factor on the first channel; the height is in widths of the map.
-[[nodiscard]] NormalMap normals_of_heights(const Image& stored, double strength);
+/// The normals of a map of heights, in Material::normal_map's four channels. Texels are square, columns run along x,
+/// rows against y, and heights rise along z.
+/// stored: the height in the first channel, any finite number.
+/// scale: the height of value 1 in widths of the map.
+/// Throws Error (usage) that names the texel: a height that is not finite.
+[[nodiscard]] Image normals_of_heights(const Image& stored, double scale, const HeightSettings& settings = {});
 
 /// The faults of a normal map, one line each; empty without faults.
 [[nodiscard]] std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name);

@@ -1,6 +1,7 @@
 // Decoding of normal, roughness and colour maps against values worked out by hand.
 #include "renderer/scene/assembly/surface_maps.hpp"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "tests/support/fresh_folder.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {
@@ -41,31 +43,112 @@ TEST(SurfaceMaps, TexelsWithoutDirectionHaveNoWeight) {
   }
 }
 
-// Heights of a sine along x over the columns and of a cosine along y: slopes by their derivatives.
-TEST(SurfaceMaps, HeightsBecomeTheirSlopes) {
-  constexpr int size = 256;
-  constexpr double turn = 2.0 * std::numbers::pi / size;
-  Image heights(size, size / 2, 1);  // lengths are in widths
-  for (int y = 0; y < size / 2; ++y) {
-    for (int x = 0; x < size; ++x)
-      heights.at(x, y)[0] = static_cast<float>(0.25 * (std::sin(3 * turn * x) + std::cos(2 * turn * y)));
+// A wave sin(a x + b y) over columns x and rows y has differences in closed form: along x, cos(a x + b y) sin(a) times
+// the filter's mean of cos(b) over its rows; along y the same with a and b exchanged.
+TEST(SurfaceMaps, HeightsBecomeTheSlopesOfAnAnalyticField) {
+  constexpr int width = 48, height = 32;
+  constexpr double turn = 2.0 * std::numbers::pi, a = 3 * turn / width, b = 2 * turn / height, scale = 0.1;
+  Image heights(width, height, 2, 9.0F);  // a second channel does not count
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) heights.at(x, y)[0] = static_cast<float>(std::sin(a * x + b * y));
   }
-  const NormalMap map = normals_of_heights(heights, 0.1);
-  EXPECT_EQ(map.invalid, 0U);
-  for (const auto& [x, y] : {std::pair{0, 0}, std::pair{40, 100}, std::pair{255, 127}, std::pair{128, 7}}) {
-    const auto n = map.image.at(x, y);
-    const double along_x = 0.1 * 0.25 * 3 * turn * size * std::cos(3 * turn * x);
-    const double down = -0.1 * 0.25 * 2 * turn * size * std::sin(2 * turn * y);
-    EXPECT_NEAR(n[0] / n[2], -along_x, 1e-3) << x << " " << y;
-    EXPECT_NEAR(n[1] / n[2], down, 1e-3) << x << " " << y;
+  using Mean = double (*)(double);
+  for (const auto& [filter, mean] : std::initializer_list<std::pair<SlopeFilter, Mean>>{
+           {SlopeFilter::central, [](double) { return 1.0; }},
+           {SlopeFilter::sobel, [](double phase) { return (1.0 + std::cos(phase)) / 2.0; }},
+           {SlopeFilter::scharr, [](double phase) { return (5.0 + 3.0 * std::cos(phase)) / 8.0; }}}) {
+    const Image map = normals_of_heights(heights, scale, {.filter = filter});
+    double exact = 0.0, analytic = 0.0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const auto n = map.at(x, y);
+        const double wave = scale * width * std::cos(a * x + b * y);
+        const double along_x = -n[0] / n[2], up = -n[1] / n[2];
+        exact = std::max(
+            {exact, std::abs(along_x - wave * std::sin(a) * mean(b)), std::abs(up + wave * std::sin(b) * mean(a))});
+        analytic = std::max({analytic, std::abs(along_x - wave * a), std::abs(up + wave * b)});
+        ASSERT_EQ(n[3], 1.0F);
+      }
+    }
+    EXPECT_LT(exact, 4e-6);                     // of slopes up to 1.9, from 32-bit heights
+    EXPECT_LT(analytic, scale * width * 0.04);  // the derivative itself, to second order of a texel
+    EXPECT_GT(analytic, 1e-3);
   }
 }
 
-TEST(SurfaceMaps, AHeightThatIsNoneHasNoSlopeAboutIt) {
-  Image heights(5, 5, 1);
-  heights.at(2, 2)[0] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(normals_of_heights(heights, 1.0).invalid, 4U);
-  EXPECT_EQ(normals_of_heights(Image(1, 1, 1, 0.5F), 1.0).image.texels, (std::vector{0.0F, 0.0F, 1.0F, 1.0F}));
+// A ramp that rises by 1 per texel to the right and by 2 down the rows. Its border repeats, or is clamped.
+TEST(SurfaceMaps, HeightsBeyondTheBorderFollowTheWrap) {
+  Image heights(6, 4, 1);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 6; ++x) heights.at(x, y)[0] = static_cast<float>(x + 2 * y);
+  }
+  const auto slopes = [&](const HeightSettings& settings, int x, int y) {
+    const Image map = normals_of_heights(heights, 1.0 / 6.0, settings);  // 1 per texel
+    const auto n = map.at(x, y);
+    return glm::dvec2(-n[0], -n[1]) / static_cast<double>(n[2]);
+  };
+  const auto expect_slopes = [](const glm::dvec2& found, double along_x, double up) {
+    EXPECT_NEAR(found.x, along_x, 1e-5);
+    EXPECT_NEAR(found.y, up, 1e-5);
+  };
+  for (const SlopeFilter filter : {SlopeFilter::central, SlopeFilter::sobel, SlopeFilter::scharr}) {
+    expect_slopes(slopes({filter}, 2, 2), 1.0, -2.0);  // rows run down
+    expect_slopes(slopes({filter, {Wrap::repeat, Wrap::clamp_to_edge}}, 0, 1), (1.0 - 5.0) / 2.0, -2.0);
+    expect_slopes(slopes({filter, {Wrap::clamp_to_edge, Wrap::repeat}}, 1, 3), 1.0, (4.0 - 0.0) / 2.0);
+    expect_slopes(slopes({filter, {Wrap::clamp_to_edge, Wrap::mirrored_repeat}}, 0, 3), 0.5, -1.0);
+  }
+}
+
+TEST(SurfaceMaps, HeightsOfOneTexelAreFlatAndStepsAreSteep) {
+  EXPECT_EQ(normals_of_heights(Image(1, 1, 1, 0.5F), 100.0).texels, (std::vector{0.0F, 0.0F, 1.0F, 1.0F}));
+  Image step(4, 1, 1);
+  step.texels = {0.0F, 0.0F, 1.0F, 1.0F};
+  const Image gentle = normals_of_heights(step, 0.5, {.wrap = {Wrap::clamp_to_edge, Wrap::repeat}});
+  for (int x = 0; x < 4; ++x) EXPECT_NEAR(-gentle.at(x, 0)[0] / gentle.at(x, 0)[2], x == 1 || x == 2 ? 1.0 : 0.0, 1e-6);
+  step.texels = {-3e38F, 3e38F, -3e38F, 3e38F};  // a texel's two neighbours are equal
+  EXPECT_EQ(normals_of_heights(step, 100.0).at(1, 0)[2], 1.0F);
+  step.texels = {0.0F, 0.0F, 3e38F, 3e38F};
+  for (const float value : normals_of_heights(step, 100.0).texels) EXPECT_TRUE(std::isfinite(value));
+  EXPECT_EQ(normals_of_heights(step, 100.0).at(1, 0)[2], 1e-6F);
+}
+
+TEST(SurfaceMaps, HeightsThatAreNotFiniteAreRefusedByTheirTexel) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+    Image heights(5, 5, 1);
+    heights.at(2, 3)[0] = bad;
+    const std::string error = test::usage_error([&] { return normals_of_heights(heights, 1.0); });
+    EXPECT_TRUE(test::says(error, "texel (2, 3)"));
+    EXPECT_TRUE(test::says(error, "is not a height"));
+  }
+}
+
+// 8 and 16 bits are read as 0 to 1, floats as they are: one wave in all three, to half a step of the bits.
+TEST(SurfaceMaps, FilesOfHeightsAreReadAtTheirDepth) {
+  const auto folder = test::fresh_folder();
+  constexpr int size = 32;
+  Image heights(size, size, 1);
+  for (int x = 0; x < size * size; ++x)
+    heights.texels[static_cast<std::size_t>(x)] = static_cast<float>(0.5 + 0.5 * std::sin(0.3 * (x % size)));
+  write_exr(folder / "float.exr", heights);
+  write_png(folder / "byte.png", heights);
+  const auto output = OIIO::ImageOutput::create("png");
+  ASSERT_TRUE(output->open((folder / "short.png").string(), {size, size, 1, OIIO::TypeDesc::UINT16}));
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, heights.texels.data()) && output->close());
+  std::vector<std::string> faults;
+  const auto read = [&](const char* file) {
+    return read_normals({.path = folder / file, .scale = 0.1, .heights = HeightSettings{}}, faults).decoded();
+  };
+  const Image exact = normals_of_heights(heights, 0.1);
+  EXPECT_EQ(read("float.exr"), exact);
+  for (const auto& [file, step] : {std::pair{"byte.png", 1.0 / 255}, std::pair{"short.png", 1.0 / 65535}}) {
+    const Image map = read(file);
+    double most = 0.0;
+    for (std::size_t i = 0; i < map.texel_count(); ++i)
+      most = std::max(most, std::abs(static_cast<double>(map.texels[4 * i]) - exact.texels[4 * i]));
+    EXPECT_LE(most, 0.1 * size * step * 0.5) << file;
+    EXPECT_GT(most, 0.0) << file;
+  }
+  EXPECT_TRUE(faults.empty());
 }
 
 TEST(SurfaceMaps, SlopesAreScaled) {
@@ -146,9 +229,7 @@ TEST(SurfaceMaps, FilesOfNormalsAreReadByTheirFormat) {
   write_exr(folder / "encoded.exr", encoded);
   write_png(folder / "encoded.png", encoded);
   std::vector<std::string> faults;
-  const auto read = [&](const char* file) {
-    return read_normal_map(folder / file, 1.0, NormalChannels::xyz, faults).decoded();
-  };
+  const auto read = [&](const char* file) { return read_normals({.path = folder / file}, faults).decoded(); };
   EXPECT_FLOAT_EQ(read("unit.exr").texels[0], 0.6F);
   EXPECT_NEAR(read("encoded.png").texels[0], 0.6F, 4e-3F);
   EXPECT_TRUE(faults.empty());

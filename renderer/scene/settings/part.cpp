@@ -17,6 +17,8 @@ constexpr NumberRange repeats{1e-3, 1e4};  // of a map along u or v
 constexpr NumberRange lobe_weight{1e-6, 1e3};
 constexpr NumberRange seed_range{0.0, std::numeric_limits<std::uint32_t>::max()};
 
+constexpr NumberRange slope_factors{-100.0, 100.0};
+
 constexpr double lowest_axis = 1e-3;  // half of a lobe on the horizon would be below it
 
 const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
@@ -35,14 +37,49 @@ ModelSettings read_model(const TomlTable& table, const std::filesystem::path& fo
                         .time = table.number("time", {-largest_seconds, largest_seconds})}};
 }
 
+constexpr std::array<Word<Wrap>, 2> height_wraps{{{Wrap::repeat, "repeat"}, {Wrap::clamp_to_edge, "clamp_to_edge"}}};
+
+// A file of heights. Its scale is required, because heights range over four powers of ten.
+NormalFile read_heights(const TomlTable& table, const std::filesystem::path& folder) {
+  const auto file = read_path(table, "file", folder);
+  if (!file) refuse_missing(table, "file");
+  const auto scale = table.number("scale", slope_factors);
+  if (!scale) refuse_missing(table, "scale");
+  HeightSettings heights;
+  assign(heights.filter, read_word(table, "slope_filter", slope_filters));
+  if (const auto wrap = read_word(table, "wrap", height_wraps)) heights.wrap = {*wrap, *wrap};
+  return {.path = *file, .scale = *scale, .heights = heights};
+}
+
+// The keys `normal_map` and `height_map`.
+std::optional<NormalFile> read_normals(const TomlTable& table, const std::filesystem::path& folder) {
+  const auto heights = table.table("height_map", {"file", "scale", "slope_filter", "wrap"});
+  const auto file = read_path(table, "normal_map", folder);
+  if (heights && file) throw table.error_at("height_map", "excludes `normal_map`", "give one of the two");
+  if (heights) return read_heights(*heights, folder);
+  return file ? std::optional(NormalFile{.path = *file}) : std::nullopt;
+}
+
+// Those of a plane, with the keys that belong to stored normals alone.
+std::optional<NormalFile> read_plane_normals(const TomlTable& table, const std::filesystem::path& folder) {
+  auto normals = read_normals(table, folder);
+  const auto channels = read_word(table, "normal_channels", normal_channels);
+  const auto scale = table.number("normal_scale", slope_factors);
+  if (!normals) return normals;
+  for (const char* key : {"normal_channels", "normal_scale"}) {
+    if (normals->heights && table.has(key)) throw table.error_at(key, "belongs to a `normal_map`", "leave it out");
+  }
+  assign(normals->channels, channels);
+  assign(normals->scale, scale);
+  return normals;
+}
+
 PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& folder) {
   PlaneSettings plane;
   assign(plane.size, read_pair(table, "size", length_range));
-  plane.normal_map = read_path(table, "normal_map", folder);
+  plane.normals = read_plane_normals(table, folder);
   plane.base_color_map = read_path(table, "base_color_map", folder);
   plane.metallic_roughness_map = read_path(table, "metallic_roughness_map", folder);
-  assign(plane.normal_channels, read_word(table, "normal_channels", normal_channels));
-  assign(plane.normal_scale, table.number("normal_scale", {-100.0, 100.0}));
   assign(plane.roughness, table.number("roughness", unit_range));
   assign(plane.metallic, table.number("metallic", unit_range));
   return plane;
@@ -146,6 +183,21 @@ std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, con
   return MapFile{*file, read_pair(*table, "uv", repeats)};
 }
 
+// The normals that replace those of all materials: `normal` or `height`.
+std::optional<LaidNormals> read_laid_normals(const TomlTable& maps, const std::filesystem::path& folder) {
+  const auto heights = maps.table("height", {"file", "uv", "scale", "slope_filter", "wrap"});
+  const auto normals = maps.table("normal", {"file", "uv", "scale", "channels"});
+  if (heights && normals) throw maps.error_at("height", "excludes `normal`", "give one of the two");
+  if (heights) return LaidNormals{read_heights(*heights, folder), read_pair(*heights, "uv", repeats)};
+  if (!normals) return std::nullopt;
+  const auto file = read_path(*normals, "file", folder);
+  if (!file) refuse_missing(*normals, "file");
+  LaidNormals laid{{.path = *file}, read_pair(*normals, "uv", repeats)};
+  assign(laid.file.scale, normals->number("scale", slope_factors));
+  assign(laid.file.channels, read_word(*normals, "channels", normal_channels));
+  return laid;
+}
+
 MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder) {
   MapSettings maps;
   const auto lobe = find_lobe(table, brdf.distribution);
@@ -160,6 +212,7 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
   maps.roughness = read_map(table, "roughness", folder);
   maps.specular = read_map(table, "specular", folder);
   maps.diffuse = read_map(table, "diffuse", folder);
+  maps.normals = read_laid_normals(table, folder);
   maps.material = read_map(table, "material", folder);
   return maps;
 }
@@ -274,8 +327,8 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
                                              std::span<const Surface> surfaces) {
   const auto model =
       table.table("model", {"file", "files", "package", "unwrap", "scene", "camera", "variant", "animation", "time"});
-  const auto plane = table.table("plane", {"size", "normal_map", "normal_channels", "normal_scale", "base_color_map",
-                                           "metallic_roughness_map", "roughness", "metallic"});
+  const auto plane = table.table("plane", {"size", "normal_map", "normal_channels", "normal_scale", "height_map",
+                                           "base_color_map", "metallic_roughness_map", "roughness", "metallic"});
   const auto surface = table.table("surface", surface_keys);
   if (!model && !plane && !surface) {
     throw table.error_at("model", "or `plane` or `surface` must be given", "add model = { file = \"NAME.gltf\" }");
@@ -301,14 +354,18 @@ LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& fo
   }
   LayerSettings layer;
   if (surface) layer.content = read_surface(*surface, surfaces);
-  if (const auto file = read_path(table, "normal_map", folder)) layer.content = LayerFile{*file, false};
-  if (const auto file = read_path(table, "bump_map", folder)) {
-    layer.content = LayerFile{*file, true};
-    // Heights need an explicit strength, because they range over four powers of ten.
-    if (!table.has("strength")) refuse_missing(table, "strength");
-  }
   assign(layer.uv, read_pair(table, "uv", repeats));
-  assign(layer.strength, table.number("strength", {-100.0, 100.0}));
+  assign(layer.strength, table.number("strength", slope_factors));
+  const auto filter = read_word(table, "slope_filter", slope_filters);
+  if (const auto file = read_path(table, "normal_map", folder)) layer.content = NormalFile{*file, layer.strength};
+  if (const auto file = read_path(table, "bump_map", folder)) {
+    if (!table.has("strength")) refuse_missing(table, "strength");  // as the scale of read_heights
+    layer.content = NormalFile{.path = *file,
+                               .scale = layer.strength,
+                               .heights = HeightSettings{.filter = filter.value_or(SlopeFilter::central)}};
+  } else if (filter) {
+    throw table.error_at("slope_filter", "belongs to a `bump_map`", "leave it out");
+  }
   return layer;
 }
 
@@ -316,8 +373,20 @@ CoatSettings read_coat(const TomlTable& table, const std::filesystem::path& fold
   CoatSettings coat;
   assign(coat.weight, table.number("weight", unit_range));
   assign(coat.roughness, table.number("roughness", unit_range));
-  coat.normal_map = read_path(table, "normal_map", folder);
+  coat.normals = read_normals(table, folder);
   return coat;
+}
+
+// A normal map of [maps] replaces a model's, but not one that the same file describes.
+void require_no_normals(const TomlTable& part, const TomlTable& maps, const decltype(PartSettings::content)& content) {
+  const std::string_view key = maps.has("height") ? "height" : "normal";
+  const auto* const plane = std::get_if<PlaneSettings>(&content);
+  if (plane != nullptr && plane->normals)
+    throw maps.error_at(key, "excludes the `normal_map` or `height_map` of [plane]", "give one of them");
+  for (const char* other : {"surface", "microgeometry"}) {
+    if (part.has(other))
+      throw maps.error_at(key, fmt::format("excludes [{}], which has normals of its own", other), "give one of them");
+  }
 }
 
 /// A part's content, layer, maps, coat and tiling, with a BRDF that is read already.
@@ -326,14 +395,16 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
   PartSettings part;
   part.content = read_content(table, folder, surfaces);
   part.brdf = brdf;
-  if (const auto layer = table.table("layer", {"bump_map", "normal_map", "surface", "uv", "strength"})) {
+  if (const auto layer =
+          table.table("layer", {"bump_map", "slope_filter", "normal_map", "surface", "uv", "strength"})) {
     part.layer = read_layer(*layer, folder, surfaces);
   }
-  if (const auto maps =
-          table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "material"})) {
+  if (const auto maps = table.table(
+          "maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "normal", "height", "material"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
+    if (part.maps.normals) require_no_normals(table, *maps, part.content);
   }
-  if (const auto coat = table.table("clear_coat", {"weight", "roughness", "normal_map"}))
+  if (const auto coat = table.table("clear_coat", {"weight", "roughness", "normal_map", "height_map"}))
     part.coat = read_coat(*coat, folder);
   part.microgeometry = read_patches(table, part.maps, folder);
   if (const auto tiling = table.table("tiling", {"uv"})) assign(part.tiling, read_pair(*tiling, "uv", repeats));

@@ -14,6 +14,7 @@
 #include "renderer/core/toml_table.hpp"
 #include "renderer/microgeometry/patch_kinds.hpp"
 #include "renderer/scene/material.hpp"
+#include "renderer/scene/normal_file.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/surface.hpp"
 
@@ -30,9 +31,8 @@ struct ModelSettings {
 /// A rectangle in the xy plane with its own maps.
 struct PlaneSettings {
   glm::vec2 size{1.0F};
-  std::optional<std::filesystem::path> normal_map, base_color_map, metallic_roughness_map;
-  NormalChannels normal_channels = NormalChannels::xyz;
-  double normal_scale = 1.0;
+  std::optional<NormalFile> normals;
+  std::optional<std::filesystem::path> base_color_map, metallic_roughness_map;
   float roughness = 0.5F, metallic = 0.0F;
 };
 
@@ -42,17 +42,11 @@ struct SurfaceContent {
   SurfaceSettings settings;
 };
 
-/// An image file of heights, or of normals.
-struct LayerFile {
-  std::filesystem::path path;
-  bool heights = false;
-};
-
 /// A detail layer over the normal map of every material of a part.
 struct LayerSettings {
-  std::variant<LayerFile, SurfaceContent> content;
+  std::variant<NormalFile, SurfaceContent> content;
   glm::vec2 uv{1.0F};     ///< tiles over the mesh's first texture coordinates
-  double strength = 1.0;  ///< factor on slopes; for heights, the height of value 1 in widths of the map
+  double strength = 1.0;  ///< factor on slopes of a surface
 };
 
 /// Overrides of [brdf] for all materials.
@@ -72,16 +66,23 @@ struct MapFile {
   std::optional<glm::vec2> uv;  ///< repetitions along u and v; none: those of [tiling]
 };
 
+/// Normals from a file that replace the materials' own.
+struct LaidNormals {
+  NormalFile file;
+  std::optional<glm::vec2> uv;  ///< as MapFile's
+};
+
 /// Maps of [maps] for all materials.
 struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
+  std::optional<LaidNormals> normals;
   std::optional<MapFile> material;  ///< indices of the patches, if there are several
 };
 
 /// A clear coat that replaces the materials' coats; weight 0 removes them.
 struct CoatSettings {
   float weight = 1.0F, roughness = 0.0F;
-  std::optional<std::filesystem::path> normal_map;  ///< none: the mesh's own normals
+  std::optional<NormalFile> normals;  ///< none: the mesh's own
 };
 
 /// Ward's isotropic BRDF (1992).

@@ -76,10 +76,10 @@ uv = [2, 3]
   EXPECT_EQ(settings.name, "n");
   const auto& plane = std::get<PlaneSettings>(settings.parts.at(0).content);
   EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
-  EXPECT_EQ(plane.normal_map->filename(), "bumps.png");
-  EXPECT_TRUE(plane.normal_map->is_absolute());
-  EXPECT_EQ(plane.normal_channels, NormalChannels::xy);
-  EXPECT_EQ(plane.normal_scale, 0.5);
+  EXPECT_EQ(plane.normals->path.filename(), "bumps.png");
+  EXPECT_TRUE(plane.normals->path.is_absolute());
+  EXPECT_EQ(plane.normals->channels, NormalChannels::xy);
+  EXPECT_EQ(plane.normals->scale, 0.5);
   EXPECT_EQ(settings.horizon, Horizon::open);
   EXPECT_TRUE(settings.shadows.both_sides);
   EXPECT_EQ(plane.roughness, 0.25F);
@@ -142,17 +142,64 @@ TEST(SceneSettings, ShadowsAreDerivedUnlessGiven) {
 TEST(SceneSettings, ALayerIsHeightsOrNormals) {
   const SceneSettings settings = read("[plane]\n[layer]\nbump_map = \"h.png\"\nuv = [8, 4]\nstrength = 0.02");
   ASSERT_TRUE(settings.parts.front().layer);
-  EXPECT_TRUE(std::get<LayerFile>(settings.parts.front().layer->content).heights);
-  EXPECT_EQ(std::get<LayerFile>(settings.parts.front().layer->content).path.filename(), "h.png");
+  EXPECT_TRUE(std::get<NormalFile>(settings.parts.front().layer->content).heights);
+  EXPECT_EQ(std::get<NormalFile>(settings.parts.front().layer->content).path.filename(), "h.png");
   EXPECT_EQ(settings.parts.front().layer->uv, glm::vec2(8.0F, 4.0F));
   EXPECT_EQ(settings.parts.front().layer->strength, 0.02);
   const SceneSettings normals = read("[plane]\n[layer]\nnormal_map = \"n.png\"");
-  EXPECT_FALSE(std::get<LayerFile>(normals.parts.front().layer->content).heights);
+  EXPECT_FALSE(std::get<NormalFile>(normals.parts.front().layer->content).heights);
   EXPECT_EQ(normals.parts.front().layer->strength, 1.0);
   expect_settings_error("[plane]\n[layer]\nuv = [1, 1]", {"scene.toml:2", "bump_map", "surface"});
   expect_settings_error("[plane]\n[layer]\nbump_map = \"a\"\nnormal_map = \"b\"", {"scene.toml:3", "only one"});
   expect_settings_error("[plane]\n[layer]\nbump_map = \"a\"", {"scene.toml:2", "strength", "missing"});
   expect_settings_error("[plane]\n[layer]\nnormal_map = \"a\"\nstrenght = 2", {"scene.toml:4", "strength"});
+}
+
+TEST(SceneSettings, HeightsAreReadWhereNormalsAre) {
+  const std::string heights = "{ file = \"h.exr\", scale = -0.5, slope_filter = \"scharr\", wrap = \"clamp_to_edge\" }";
+  const auto expect_heights = [](const NormalFile& file) {
+    EXPECT_EQ(file.path.filename(), "h.exr");
+    EXPECT_EQ(file.scale, -0.5);
+    EXPECT_EQ(file.heights.value().filter, SlopeFilter::scharr);
+    EXPECT_EQ(file.heights->wrap, (std::array{Wrap::clamp_to_edge, Wrap::clamp_to_edge}));
+  };
+  const PartSettings part =
+      read("[plane]\nheight_map = " + heights + "\n[clear_coat]\nheight_map = " + heights).parts[0];
+  expect_heights(std::get<PlaneSettings>(part.content).normals.value());
+  expect_heights(part.coat->normals.value());
+  const std::string model = "[model]\nfile = \"a.gltf\"\n";
+  expect_heights(read(model + "[maps]\nheight = " + heights).parts[0].maps.normals.value().file);
+  const LaidNormals laid = read(model + "[maps.normal]\nfile = \"n.png\"\nuv = [2, 3]\nscale = 4\nchannels = \"xy\"")
+                               .parts[0]
+                               .maps.normals.value();
+  EXPECT_EQ(laid.uv, glm::vec2(2, 3));
+  EXPECT_EQ(laid.file.scale, 4.0);
+  EXPECT_EQ(laid.file.channels, NormalChannels::xy);
+  EXPECT_FALSE(laid.file.heights);
+  const PartSettings plain = read("[plane]\nheight_map = { file = \"h\", scale = 1 }").parts[0];
+  EXPECT_EQ(std::get<PlaneSettings>(plain.content).normals->heights->filter, SlopeFilter::central);
+  const PartSettings layered =
+      read("[plane]\n[layer]\nbump_map = \"h\"\nstrength = 1\nslope_filter = \"sobel\"").parts[0];
+  EXPECT_EQ(std::get<NormalFile>(layered.layer->content).heights->filter, SlopeFilter::sobel);
+}
+
+TEST(SceneSettings, HeightsAndNormalsExcludeEachOther) {
+  const std::string heights = "height_map = { file = \"h\", scale = 1 }\n";
+  expect_settings_error("[plane]\nnormal_map = \"n\"\n" + heights, {"scene.toml:3", "`height_map`", "`normal_map`"});
+  expect_settings_error("[plane]\n[clear_coat]\nnormal_map = \"n\"\n" + heights, {"scene.toml:4", "`height_map`"});
+  expect_settings_error("[plane]\n[maps.normal]\nfile = \"n\"\n[maps.height]\nfile = \"h\"\nscale = 1",
+                        {"scene.toml:4", "`height` in [maps] excludes `normal`"});
+  expect_settings_error("[plane]\n" + heights + "[maps.height]\nfile = \"h\"\nscale = 1",
+                        {"scene.toml:3", "`height` in [maps]", "[plane]"});
+  expect_settings_error("[plane]\n[maps.height]\nfile = \"h\"\nscale = 1\n[microgeometry]\nkind = \"grooves\"",
+                        {"scene.toml:2", "`height` in [maps]", "[microgeometry]"});
+  expect_settings_error("[plane]\nheight_map = { file = \"h\" }", {"scene.toml:2", "scale", "missing"});
+  expect_settings_error("[plane]\nheight_map = { scale = 1 }", {"scene.toml:2", "file", "missing"});
+  expect_settings_error("[plane]\nheight_map = { file = \"h\", scale = 1, slope_filter = \"sobl\" }",
+                        {"scene.toml:2", "`sobl`", "`sobel`"});
+  expect_settings_error("[plane]\nnormal_scale = 2\n" + heights, {"scene.toml:2", "normal_scale", "belongs to"});
+  expect_settings_error("[plane]\n[layer]\nnormal_map = \"n\"\nslope_filter = \"sobel\"",
+                        {"scene.toml:4", "slope_filter", "belongs to"});
 }
 
 TEST(SceneSettings, UnknownKeysNameLineAndNeighbour) {

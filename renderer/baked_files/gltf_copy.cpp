@@ -99,7 +99,14 @@ void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, 
   const std::string normal_file = stem + ".normal.png", rough_file = stem + ".metallic_roughness.png";
   write_png(folder / normal_file, maps.normal);
   write_png(folder / rough_file, maps.rough_metallic);
-  const Json normal = material_called(document, maps.material, source).at("normalTexture");
+  const Json& old = material_called(document, maps.material, source);
+  if (old.contains("extensions") && old["extensions"].contains("KHR_materials_pbrSpecularGlossiness")) {
+    throw Error(ErrorKind::usage, source,
+                fmt::format("material `{}` stores its roughness as glossiness (KHR_materials_pbrSpecularGlossiness)",
+                            maps.material),
+                "convert the model to metallic-roughness, or leave --gltf out");
+  }
+  const Json normal = old.at("normalTexture");
   const Json& old_texture = document["textures"][normal["index"].get<std::size_t>()];
   const Json sampler = old_texture.contains("sampler") ? old_texture["sampler"] : Json();
   const std::size_t normal_texture = add_texture(document, normal_file, sampler, nullptr);

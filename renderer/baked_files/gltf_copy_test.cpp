@@ -122,6 +122,16 @@ TEST(GltfCopy, NamesTheWholeChainInExtras) {
   EXPECT_EQ(json["textures"][texture]["extras"]["footprint_mips"], nlohmann::json(maps.roughness_mips));
 }
 
+TEST(GltfCopy, RefusesMaterialsThatStoreGlossiness) {
+  GltfBuilder glossy = bumpy();
+  glossy.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = nlohmann::json::object();
+  const fs::path source = glossy.write();
+  const ReplacedMaps maps = smaller_maps(false);
+  EXPECT_TRUE(
+      test::says(test::usage_error([&] { return write_gltf_copy(source, std::span(&maps, 1), test::fresh_folder()); }),
+                 "material `bumpy` stores its roughness as glossiness"));
+}
+
 TEST(GltfCopy, RefusesNamesThatAreNotOneMaterials) {
   GltfBuilder twice = bumpy();
   twice.json["materials"].push_back(twice.json["materials"][0]);

@@ -33,6 +33,7 @@ constexpr auto names = std::to_array<std::string_view>({"diffuse",
                                                         "material_index",
                                                         "alpha_mask",
                                                         "double_sided",
+                                                        "unlit",
                                                         "point_light",
                                                         "spot_light",
                                                         "directional_light",
@@ -223,10 +224,12 @@ std::vector<EffectDecision> coverage_effects(const Scene& scene) {
   const auto shared = [](const Material& m) { return m.share.has_value(); };
   const auto cut_out = [](const Material& m) { return m.alpha_cutoff.has_value(); };
   const auto double_sided = [](const Material& m) { return m.double_sided; };
+  const auto unlit = [](const Material& m) { return m.unlit; };
   return {decide(Effect::material_index, scene, shared, "one of several on its surface, by a map of indices",
                  "one material a surface"),
           decide(Effect::alpha_mask, scene, cut_out, "parts cut out by alpha", "no material is cut out by alpha"),
-          decide(Effect::double_sided, scene, double_sided, "seen from both sides", "every material is one-sided")};
+          decide(Effect::double_sided, scene, double_sided, "seen from both sides", "every material is one-sided"),
+          decide(Effect::unlit, scene, unlit, "a colour that is drawn without light", "every material is lit")};
 }
 
 std::vector<EffectDecision> light_effects(const Scene& scene) {

@@ -33,6 +33,7 @@ enum class Effect : std::size_t {
   material_index,         ///< several materials on one surface, chosen by a map of indices
   alpha_mask,             ///< parts cut out by alpha
   double_sided,           ///< surfaces seen from behind
+  unlit,                  ///< surfaces that radiate their colour, whatever the light
   point_light,
   spot_light,
   directional_light,

@@ -127,6 +127,7 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].base_color.a = 0.3F;
        s.materials[0].alpha_cutoff = 0.5F;
      }},
+    {Effect::unlit, "lobe_cutoff.z", [](Scene& s) { s.materials[0].unlit = true; }},
     {Effect::double_sided, "gl_FrontFacing", [](Scene& s) { s.materials[0].double_sided = true; }},
     {Effect::point_light, "PointLight",
      [](Scene& s) {

@@ -61,9 +61,9 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   const bool specular_varies = has(effects, Effect::specular_variation);
   glm::vec3 specular = material.dielectric_specular;
   if (!specular_varies) specular *= glm::make_vec3(specular_map_of(material).texels.data());
-  std::vector<glm::vec4> block{
-      material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
-      glm::vec4(lobe_of(material).parameter, material.alpha_cutoff.value_or(never_cut), 0.0F, 0.0F)};
+  std::vector<glm::vec4> block{material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
+                               glm::vec4(lobe_of(material).parameter, material.alpha_cutoff.value_or(never_cut),
+                                         material.unlit ? 1.0F : 0.0F, 0.0F)};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
                          base_color_coordinates(material), layer_coordinates(material)};
   for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));

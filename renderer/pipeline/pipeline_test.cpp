@@ -141,6 +141,32 @@ TEST(VertexColor, MultipliesTheBaseColourLinearly) {
   }
 }
 
+// A checkerboard of 0.2 and 0.6 far away, times its factor and its vertices' colour: no light, normal or coat matters,
+// and the reference has the mean.
+TEST(Unlit, SurfacesRadiateTheirColour) {
+  Image board(2, 2, 4, 1.0F);
+  for (const auto& [x, y] : {std::pair{0, 0}, {1, 1}}) std::ranges::fill(board.at(x, y).first(3), 0.2F);
+  for (const auto& [x, y] : {std::pair{1, 0}, {0, 1}}) std::ranges::fill(board.at(x, y).first(3), 0.6F);
+  Scene scene = square_scene(random_normals(8, 8, 0.5F, 1), {.brdf = {}, .base_color = {1.0F, 0.5F, 0.25F}});
+  Material& material = scene.materials[0];
+  material.base_color_map = TextureMap{"board", std::make_shared<const Image>(board), {}};
+  material.base_color_map->coordinates.transform = glm::mat3x2{64.0F, 0.0F, 0.0F, 64.0F, 0.0F, 0.0F};
+  material.coat = ClearCoat{};
+  material.unlit = true;
+  for (Vertex& vertex : scene.meshes[0].vertices) vertex.color = glm::vec4(0.5F, 1.0F, 1.0F, 1.0F);
+  const auto expect_colours = [](const Image& picture, double tolerance) {
+    for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
+      for (const auto& [channel, wanted] : {std::pair{0, 0.2}, {1, 0.2}, {2, 0.1}})
+        ASSERT_NEAR(picture.texels[i + static_cast<std::size_t>(channel)], wanted, tolerance);
+    }
+  };
+  TestRenderer renderer(scene, {8, 8});
+  expect_colours(renderer.frame(base_surface()), 1e-5);
+  expect_colours(renderer.reference(256).mean, 0.03);
+  scene.lights.clear();
+  expect_colours(TestRenderer(scene, {8, 8}).frame(base_surface()), 1e-5);
+}
+
 // Alpha from 0 to 1 across the square, cut at a half: in the picture, in its shadow and before the rays alike.
 TEST(VertexColor, AlphaCutsOut) {
   Scene scene = white_floor();

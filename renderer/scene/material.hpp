@@ -110,6 +110,7 @@ struct Material {
 
   std::optional<float> alpha_cutoff;  ///< MASK: points with alpha below it are cut out
   bool double_sided = false;
+  bool unlit = false;  ///< radiates its colour in all directions, whatever the light (KHR_materials_unlit)
 
   /// Small-scale geometry, of which the normal map is the view from above; null: none. Shared and constant.
   std::shared_ptr<const Microgeometry> microgeometry;

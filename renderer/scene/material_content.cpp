@@ -116,10 +116,10 @@ class Counter {
   void add(const Material& material) {
     const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes,
                  base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat,
-                 share, alpha_cutoff, double_sided, microgeometry] = material;
+                 share, alpha_cutoff, double_sided, unlit, microgeometry] = material;
     add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes);
     add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat);
-    add_all(share, alpha_cutoff, double_sided, microgeometry);
+    add_all(share, alpha_cutoff, double_sided, unlit, microgeometry);
   }
 
   void add(const Mesh& mesh) {

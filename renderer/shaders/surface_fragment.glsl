@@ -255,6 +255,11 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
   float share = fetch(material_share, f.share).r;
   if (share <= 0.0) return vec3(0.0);
 //? end
+//? if unlit and material_index
+  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;
+//? elif unlit
+  if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;
+//? end
 //? if clear_coat
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo, coatUnder(f, wo));
 //? else

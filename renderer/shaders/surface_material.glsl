@@ -10,7 +10,7 @@ struct FacetLobe {
 layout(std140, binding = 0) uniform MaterialBlock {
   vec4 base_color_factor;
   vec4 dielectric_specular_metallic;
-  vec4 lobe_cutoff;    // lobe parameter, alpha cutoff
+  vec4 lobe_cutoff;    // lobe parameter, alpha cutoff, 1 if unlit
   vec4 uv_linear[4];   // slots normal, roughness, base_color, layer: columns d/du, d/dv
   vec4 uv_offset_set[4];
 //? if specular_variation

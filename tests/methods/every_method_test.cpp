@@ -169,6 +169,24 @@ TEST_P(EveryMethod, TakesAnisotropicProbes) {
   for (const float value : probed.texels) ASSERT_TRUE(std::isfinite(value));
 }
 
+// Half of the square is lit. The other half is as if there were no light, to the last bit, and its map's mean.
+TEST_P(EveryMethod, DrawsUnlitSurfacesInTheirColour) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
+  Scene scene = square_scene(random_normals(16, 16, 0.5F, 6), {.brdf = {}, .base_color = {0.75F, 0.5F, 0.25F}});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[0].unlit = true;
+  scene.meshes.push_back(scene.meshes[0]);
+  scene.meshes[1].material = 1;
+  for (Vertex& vertex : scene.meshes[1].vertices) {
+    vertex.position.x = 0.5F * vertex.position.x + 0.5F;
+    vertex.position.z = 0.01F;
+  }
+  const Image picture = TestRenderer(scene, {16, 16}).frame(*GetParam());
+  for (const auto& [channel, wanted] : {std::pair{0, 0.75F}, {1, 0.5F}, {2, 0.25F}})
+    EXPECT_EQ(picture.at(3, 8)[static_cast<std::size_t>(channel)], wanted);
+  EXPECT_NE(picture.at(13, 8)[0], 0.75F);
+}
+
 TEST_P(EveryMethod, DescribesItself) {
   const MethodInfo& info = GetParam()->info;
   EXPECT_EQ(&find_method(info.name), GetParam());

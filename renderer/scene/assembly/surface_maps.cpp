@@ -226,6 +226,10 @@ std::vector<std::string> describe_faults(const NormalMap& map, const std::string
   return lines;
 }
 
+std::span<const float> texel_under(const Image& map, int x, int y, int width, int height) {
+  return map.at((2 * x + 1) * map.width / (2 * width), (2 * y + 1) * map.height / (2 * height));
+}
+
 Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor) {
   const bool color = stored.channels >= 3;
   Image map(stored.width, stored.height, 2);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,9 @@ void scale_slopes(Image& normals, double strength);
 
 /// The faults of a normal map, one line each; empty without faults.
 [[nodiscard]] std::vector<std::string> describe_faults(const NormalMap& map, const std::string& name);
+
+/// The texel of `map` under the centre of the texel in column x, row y of a grid of width x height over the same area.
+[[nodiscard]] std::span<const float> texel_under(const Image& map, int x, int y, int width, int height);
 
 /// Two channels, roughness (from green) and metallic (from blue), each clamped to [0, 1] and times its factor. One or
 /// two stored channels are grey.

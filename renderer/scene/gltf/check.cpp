@@ -146,10 +146,16 @@ const std::vector<RuleGroup>& rule_groups() {
       {"materials[].extensions.KHR_materials_ior", {{".ior", number}}},
       {"materials[].extensions.KHR_materials_clearcoat",
        {{".{clearcoatFactor,clearcoatRoughnessFactor,clearcoatNormalTexture.scale}", number}}},
+      {"materials[].extensions.KHR_materials_pbrSpecularGlossiness",
+       {{".diffuseFactor", numbers, optional, "", 4},
+        {".specularFactor", numbers, optional, "", 3},
+        {".glossinessFactor", number}}},
       {"materials[].{pbrMetallicRoughness.baseColorTexture,pbrMetallicRoughness.metallicRoughnessTexture,normalTexture,"
        "occlusionTexture,emissiveTexture,extensions.KHR_materials_clearcoat.clearcoatTexture,"
        "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture,"
-       "extensions.KHR_materials_clearcoat.clearcoatNormalTexture}",
+       "extensions.KHR_materials_clearcoat.clearcoatNormalTexture,"
+       "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture,"
+       "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture}",
        {{"", object},
         {".index", index, required, "textures"},
         {".texCoord", size},
@@ -163,7 +169,8 @@ const std::vector<RuleGroup>& rule_groups() {
 
 constexpr auto supported = std::to_array<std::string_view>(
     {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_clearcoat",
-     "KHR_materials_ior", "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
+     "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_materials_variants",
+     "KHR_mesh_quantization", "KHR_texture_transform"});
 
 /// An extension and its meaning.
 struct ExtensionWord {

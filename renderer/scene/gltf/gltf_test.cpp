@@ -392,6 +392,109 @@ TEST(Gltf, ClearCoatsHaveFactorsAndMapsOfTheirOwn) {
   EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is not a coat";
 }
 
+// KHR_materials_unlit: the base colour alone. What is about light is left out, without a warning.
+TEST(Gltf, UnlitMaterialsHaveTheirColourAlone) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(one_colour({51.0F, 102.0F, 255.0F}));
+  quad.json["materials"] = {{{"extensions", {{"KHR_materials_unlit", json::object()}}},
+                             {"normalTexture", {{"index", texture}}},
+                             {"doubleSided", true},
+                             {"pbrMetallicRoughness",
+                              {{"baseColorFactor", {0.5, 0.25, 1.0, 0.75}},
+                               {"roughnessFactor", 0.5},
+                               {"metallicRoughnessTexture", {{"index", texture}}},
+                               {"baseColorTexture", {{"index", texture}}}}}}};
+  quad.json["extensionsRequired"] = quad.json["extensionsUsed"] = {"KHR_materials_unlit"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Model model = load_gltf(quad.write());
+  EXPECT_TRUE(model.warnings.empty());
+  const Material& material = model.materials.at(0);
+  EXPECT_TRUE(material.unlit && material.double_sided && material.base_color_map);
+  EXPECT_EQ(material.base_color, glm::vec4(0.5F, 0.25F, 1.0F, 0.75F));
+  EXPECT_FALSE(material.normal_map || material.metallic_roughness_map);
+}
+
+json glossy_material(const json& extension) {
+  return {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", extension}}},
+          {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}};  // for readers without the extension
+}
+
+GltfBuilder glossy_quad(GltfBuilder quad, const json& extension) {
+  quad.json["materials"] = {glossy_material(extension)};
+  quad.json["extensionsRequired"] = quad.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  return quad;
+}
+
+// The diffuse albedo is diffuse (1 - max specular), F0 is specular, and roughness is 1 - glossiness.
+TEST(Gltf, GlossyMaterialsKeepTheirReflectances) {
+  const Model model = load_gltf(glossy_quad(make_quad(), {{"diffuseFactor", {0.8, 0.4, 0.2, 0.5}},
+                                                          {"specularFactor", {0.1, 0.25, 0.2}},
+                                                          {"glossinessFactor", 0.7}})
+                                    .write());
+  EXPECT_TRUE(model.warnings.empty());
+  const Material& material = model.materials.at(0);
+  EXPECT_EQ(material.metallic, 0.0F);
+  EXPECT_FLOAT_EQ(material.roughness, 0.3F);
+  EXPECT_EQ(material.dielectric_specular, glm::vec3(0.1F, 0.25F, 0.2F));
+  for (const auto& [channel, wanted] : {std::pair{0, 0.6F}, {1, 0.3F}, {2, 0.15F}, {3, 0.5F}})
+    EXPECT_FLOAT_EQ(material.base_color[channel], wanted);
+  const Material defaults = load_gltf(glossy_quad(make_quad(), json::object()).write()).materials.at(0);
+  EXPECT_EQ(defaults.roughness, 0.0F);
+  EXPECT_EQ(defaults.dielectric_specular, glm::vec3(1.0F));
+  EXPECT_EQ(defaults.base_color, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+}
+
+// Texel by texel: colours are sRGB, glossiness is linear, and a smaller texture is looked up by its nearest texel.
+TEST(Gltf, GlossyTexturesAreConvertedTexelByTexel) {
+  GltfBuilder quad = make_quad();
+  Image diffuse(1, 2, 4, 1.0F), specular(4, 2, 4, 0.0F);
+  diffuse.at(0, 1)[1] = 128.0F / 255.0F;  // linear 0.2158605, IEC 61966-2-1
+  diffuse.at(0, 1)[3] = 0.2F;
+  specular.at(3, 1)[0] = 128.0F / 255.0F;
+  specular.at(3, 1)[3] = 0.6F;
+  const json extension = {{"diffuseTexture", {{"index", quad.add_texture(diffuse)}}},
+                          {"diffuseFactor", {0.5, 1.0, 1.0, 1.0}},
+                          {"specularFactor", {0.5, 1.0, 1.0}},
+                          {"specularGlossinessTexture", {{"index", quad.add_texture(specular)}}},
+                          {"glossinessFactor", 0.5}};
+  const Material material = load_gltf(glossy_quad(quad, extension).write()).materials.at(0);
+  ASSERT_TRUE(material.base_color_map && material.specular_map && material.metallic_roughness_map);
+  const Image color = material.base_color_map->image.decoded(), f0 = material.specular_map->image.decoded(),
+              rough = material.metallic_roughness_map->image.decoded();
+  EXPECT_EQ(glm::ivec2(color.width, color.height), glm::ivec2(4, 2));
+  const double rest = 1.0 - 0.5 * 0.2158605;
+  EXPECT_NEAR(color.at(3, 1)[0], rest, 1e-5);
+  EXPECT_NEAR(color.at(3, 1)[1], 0.2158605 * rest, 1e-5);
+  EXPECT_NEAR(color.at(3, 1)[3], 0.2, 1e-5);
+  EXPECT_NEAR(color.at(2, 1)[1], 0.2158605, 1e-5);
+  EXPECT_NEAR(color.at(3, 0)[1], 1.0, 1e-5);
+  EXPECT_EQ(material.base_color, glm::vec4(0.5F, 1.0F, 1.0F, 1.0F));
+  EXPECT_NEAR(f0.at(3, 1)[0], 0.2158605, 1e-5);
+  EXPECT_EQ(material.dielectric_specular, glm::vec3(0.5F, 1.0F, 1.0F));
+  EXPECT_NEAR(rough.at(3, 1)[0], 1.0 - 0.5 * 0.6, 1e-5);
+  EXPECT_EQ(rough.at(0, 0)[0], 1.0F);
+  EXPECT_EQ(rough.at(3, 1)[1], 0.0F);
+}
+
+TEST(Gltf, GlossyTexturesMayHaveCoordinatesOfTheirOwn) {
+  GltfBuilder quad = make_quad();
+  Image specular(2, 1, 4, 0.0F);
+  specular.at(1, 0)[2] = 1.0F;
+  const json shifted = {{"index", quad.add_texture(specular)},
+                        {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.0}}}}}}};
+  json extension = {{"specularGlossinessTexture", shifted}, {"specularFactor", {1.0, 1.0, 0.5}}};
+  const Model alone = load_gltf(glossy_quad(quad, extension).write());
+  EXPECT_TRUE(alone.warnings.empty());
+  EXPECT_FLOAT_EQ(alone.materials.at(0).base_color_map->image.decoded().at(1, 0)[0], 0.5F);
+  EXPECT_EQ(alone.materials.at(0).base_color_map->coordinates.transform[2], glm::vec2(0.5F, 0.0F));
+  extension["diffuseTexture"] = {{"index", quad.add_texture(Image(2, 2, 3, 1.0F))}};
+  const Model both = load_gltf(glossy_quad(quad, extension).write());
+  EXPECT_TRUE(mentions(both.warnings, "the mean over the texture, 0.75"));
+  EXPECT_EQ(both.materials.at(0).base_color, glm::vec4(0.75F, 0.75F, 0.75F, 1.0F));
+  EXPECT_EQ(both.materials.at(0).base_color_map->image.decoded().at(1, 0)[0], 1.0F);
+}
+
 /// The example of KHR_texture_transform: the lower left quadrant of the image, turned clockwise by 90 degrees.
 TEST(Gltf, TextureTransformTurnsAsTheExtensionsExample) {
   GltfBuilder quad = make_quad();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <set>
 #include <span>
 #include <utility>
@@ -67,7 +68,7 @@ std::string image_name(const tinygltf::Image& image, int index) {
   return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
 }
 
-enum class MapUse { color, rough, normal, coat_weight, coat_roughness };
+enum class MapUse { color, rough, normal, specular, coat_weight, coat_roughness };
 
 // A texture reference in an extension. check_gltf_json has checked its members.
 struct TextureReference {
@@ -89,9 +90,40 @@ TextureReference texture_in(const tinygltf::Value& extension, const char* key) {
   return out;
 }
 
-const tinygltf::Value* coat_of(const tinygltf::Material& material) {
-  const auto coat = material.extensions.find("KHR_materials_clearcoat");
-  return coat == material.extensions.end() ? nullptr : &coat->second;
+constexpr const char* clear_coat = "KHR_materials_clearcoat";
+constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* without_light = "KHR_materials_unlit";
+
+const tinygltf::Value* extension_of(const tinygltf::Material& material, const char* name) {
+  const auto found = material.extensions.find(name);
+  return found == material.extensions.end() ? nullptr : &found->second;
+}
+
+// A colour of `count` channels, each 0 to 1; 1 if it is missing.
+glm::vec4 color_in(const tinygltf::Value& extension, const char* key, int count) {
+  glm::vec4 color{1.0F};
+  if (!extension.Has(key)) return color;
+  for (int c = 0; c < count; ++c) color[c] = checked(extension.Get(key).Get(c).GetNumberAsDouble(), 0.0, 1.0, key);
+  return color;
+}
+
+float largest_channel(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
+
+// Roughness is 1 - glossiness, and metalness 0.
+Image decode_glossiness(const Image& stored, float glossiness_factor) {
+  const Image rgba = to_rgba(stored);
+  Image map(stored.width, stored.height, 2, 0.0F);
+  for (std::size_t i = 0; i < map.texel_count(); ++i)
+    map.texels[2 * i] = 1.0F - glossiness_factor * rgba.texels[4 * i + 3];
+  return map;
+}
+
+// 1 - max specular over a whole texture.
+float mean_rest(const Image& specular, const glm::vec3& factor) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < specular.texel_count(); ++i)
+    sum += 1.0 - largest_channel(factor * glm::make_vec3(&specular.texels[3 * i]));
+  return static_cast<float>(sum / static_cast<double>(specular.texel_count()));
 }
 
 }  // namespace
@@ -112,7 +144,14 @@ std::uint64_t decoded_map_bytes(const GltfDocument& document) {
     count(material.pbrMetallicRoughness.baseColorTexture.index, MapUse::color, 4);
     count(material.pbrMetallicRoughness.metallicRoughnessTexture.index, MapUse::rough, 2);
     count(material.normalTexture.index, MapUse::normal, 4);
-    if (const tinygltf::Value* coat = coat_of(material)) {
+    if (const tinygltf::Value* glossy = extension_of(material, specular_glossiness)) {
+      const int specular = texture_in(*glossy, "specularGlossinessTexture").index;
+      count(texture_in(*glossy, "diffuseTexture").index, MapUse::color, 4);
+      count(specular, MapUse::color, 4);
+      count(specular, MapUse::rough, 2);
+      count(specular, MapUse::specular, 3);
+    }
+    if (const tinygltf::Value* coat = extension_of(material, clear_coat)) {
       count(texture_in(*coat, "clearcoatTexture").index, MapUse::coat_weight, 1);
       count(texture_in(*coat, "clearcoatRoughnessTexture").index, MapUse::coat_roughness, 1);
       count(texture_in(*coat, "clearcoatNormalTexture").index, MapUse::normal, 4);
@@ -145,39 +184,91 @@ Material GltfMaterials::convert(int gltf_index) {
 
 Material GltfMaterials::convert_named(int gltf_index) {
   const auto& source = document_.model.materials[static_cast<std::size_t>(gltf_index)];
-  const auto& pbr = source.pbrMetallicRoughness;
   Material material;
   material.name = source.name.empty() ? fmt::format("material {}", gltf_index) : source.name;
-  for (int c = 0; c < 4; ++c) {
-    material.base_color[c] = checked(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0, "baseColorFactor");
-  }
-  material.metallic = checked(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
-  material.roughness = checked(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
-  if (const auto ior = source.extensions.find("KHR_materials_ior"); ior != source.extensions.end()) {
-    // KHR_materials_ior: 0 means infinite; other values are at least 1.
-    const double index = number(ior->second, "ior", 1.5);
-    const double ratio = index == 0.0 ? 1.0 : (checked(index, 1.0, 1e6, "ior") - 1.0) / (index + 1.0);
-    material.dielectric_specular = glm::vec3{static_cast<float>(ratio * ratio)};
-  }
   material.double_sided = source.doubleSided;
   convert_alpha(source, material);
-  convert_maps(source, material);
+  material.unlit = extension_of(source, without_light) != nullptr;
+  const tinygltf::Value* const glossy = extension_of(source, specular_glossiness);
+  if (glossy != nullptr && !material.unlit) {
+    convert_specular_glossiness(*glossy, material);
+  } else {
+    convert_metallic_roughness(source, material);
+  }
+  if (material.unlit) return material;
+  convert_normals(source, material);
   convert_coat(source, material);
   warn_left_out(source);
   return material;
 }
 
-void GltfMaterials::convert_maps(const tinygltf::Material& source, Material& material) {
+int GltfMaterials::image_of(int texture) const {
+  return document_.model.textures[static_cast<std::size_t>(texture)].source;
+}
+
+void GltfMaterials::convert_metallic_roughness(const tinygltf::Material& source, Material& material) {
   const auto& pbr = source.pbrMetallicRoughness;
-  const auto image_of = [&](int texture) { return document_.model.textures[static_cast<std::size_t>(texture)].source; };
+  for (int c = 0; c < 4; ++c) {
+    material.base_color[c] = checked(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0, "baseColorFactor");
+  }
   const auto& color = pbr.baseColorTexture;
-  if ((material.base_color_map = find_map(color.index, color.texCoord, color.extensions))) {
+  if ((material.base_color_map = find_map(color.index, color.texCoord, color.extensions)))
     material.base_color_map->image = base_color(image_of(color.index));
+  if (material.unlit) return;  // the rest is about light
+  material.metallic = checked(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
+  material.roughness = checked(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
+  if (const auto* const extension = extension_of(source, "KHR_materials_ior")) {
+    // KHR_materials_ior: 0 means infinite; other values are at least 1.
+    const double index = number(*extension, "ior", 1.5);
+    const double ratio = index == 0.0 ? 1.0 : (checked(index, 1.0, 1e6, "ior") - 1.0) / (index + 1.0);
+    material.dielectric_specular = glm::vec3{static_cast<float>(ratio * ratio)};
   }
   const auto& rough = pbr.metallicRoughnessTexture;
-  if ((material.metallic_roughness_map = find_map(rough.index, rough.texCoord, rough.extensions))) {
+  if ((material.metallic_roughness_map = find_map(rough.index, rough.texCoord, rough.extensions)))
     material.metallic_roughness_map->image = metallic_roughness(image_of(rough.index), material);
+}
+
+// KHR_materials_pbrSpecularGlossiness, "Specular - Glossiness": the diffuse albedo is diffuse (1 - max specular), the
+// reflectance at normal incidence is specular, and alpha is (1 - glossiness)^2. Without metalness a material has these
+// three as they are, so nothing is lost, as it would be in a conversion to metalness.
+void GltfMaterials::convert_specular_glossiness(const tinygltf::Value& source, Material& material) {
+  material.metallic = 0.0F;
+  material.base_color = color_in(source, "diffuseFactor", 4);
+  material.dielectric_specular = glm::vec3(color_in(source, "specularFactor", 3));
+  const float glossiness = checked(number(source, "glossinessFactor", 1.0), 0.0, 1.0, "glossinessFactor");
+  material.roughness = 1.0F - glossiness;
+  const TextureReference diffuse = texture_in(source, "diffuseTexture");
+  if ((material.base_color_map = find_map(diffuse.index, diffuse.set, diffuse.extensions)))
+    material.base_color_map->image = base_color(image_of(diffuse.index));
+  const TextureReference specular = texture_in(source, "specularGlossinessTexture");
+  const std::optional<TextureMap> map = find_map(specular.index, specular.set, specular.extensions);
+  if (!map) {
+    material.base_color *= glm::vec4(glm::vec3(1.0F - largest_channel(material.dielectric_specular)), 1.0F);
+    return;
   }
+  const int image = image_of(specular.index);
+  material.specular_map = material.metallic_roughness_map = map;
+  auto& texels = maps_[fmt::format("{} specular", image)];
+  if (!texels) texels = MapTexels::packed(to_rgb(stored(image, Transfer::srgb)));
+  material.specular_map->image = texels;
+  auto& rough = maps_[fmt::format("{} gloss {}", image, glossiness)];
+  if (!rough) rough = MapTexels::packed(decode_glossiness(stored(image, Transfer::linear), glossiness));
+  material.metallic_roughness_map->image = rough;
+  if (material.base_color_map && material.base_color_map->coordinates != map->coordinates) {
+    const float rest = mean_rest(texels.decoded(), material.dielectric_specular);
+    material.base_color *= glm::vec4(glm::vec3(rest), 1.0F);
+    add_once(warnings_,
+             fmt::format("{}: its two textures have coordinates of their own: what specular light leaves to the "
+                         "diffuse term is the mean over the texture, {:.3g}",
+                         specular_glossiness, rest));
+    return;
+  }
+  if (!material.base_color_map) material.base_color_map = map;
+  const int color = diffuse.index >= 0 && material.base_color_map->image ? image_of(diffuse.index) : -1;
+  material.base_color_map->image = diffuse_beside(color, image, material.dielectric_specular);
+}
+
+void GltfMaterials::convert_normals(const tinygltf::Material& source, Material& material) {
   const auto& normal = source.normalTexture;
   if ((material.normal_map = find_map(normal.index, normal.texCoord, normal.extensions))) {
     material.normal_map->image =
@@ -187,13 +278,12 @@ void GltfMaterials::convert_maps(const tinygltf::Material& source, Material& mat
 
 // KHR_materials_clearcoat: weight 0, the default, means no coat.
 void GltfMaterials::convert_coat(const tinygltf::Material& source, Material& material) {
-  const tinygltf::Value* const extension = coat_of(source);
+  const tinygltf::Value* const extension = extension_of(source, clear_coat);
   if (extension == nullptr) return;
   ClearCoat coat;
   coat.weight = checked(number(*extension, "clearcoatFactor", 0.0), 0.0, 1.0, "clearcoatFactor");
   coat.roughness = checked(number(*extension, "clearcoatRoughnessFactor", 0.0), 0.0, 1.0, "clearcoatRoughnessFactor");
   if (coat.weight == 0.0F) return;
-  const auto image_of = [&](int texture) { return document_.model.textures[static_cast<std::size_t>(texture)].source; };
   const TextureReference weight = texture_in(*extension, "clearcoatTexture");
   if ((coat.weight_map = find_map(weight.index, weight.set, weight.extensions)))
     coat.weight_map->image = factor(image_of(weight.index), 0, coat.weight);
@@ -281,6 +371,25 @@ MapTexels GltfMaterials::factor(int image, int channel, float factor) {
   auto& map = maps_[fmt::format("{} channel {} {}", image, channel, factor)];
   if (!map) map = MapTexels::packed(decode_factor(stored(image, Transfer::linear), channel, factor));
   return map;
+}
+
+MapTexels GltfMaterials::diffuse_beside(int diffuse, int specular, const glm::vec3& specular_factor) {
+  auto& map = maps_[fmt::format("{} beside {} {} {} {}", diffuse, specular, specular_factor.r, specular_factor.g,
+                                specular_factor.b)];
+  if (map) return map;
+  const Image color = diffuse >= 0 ? to_rgba(stored(diffuse, Transfer::srgb)) : Image(1, 1, 4, 1.0F);
+  const Image reflected = to_rgb(stored(specular, Transfer::srgb));
+  Image out(std::max(color.width, reflected.width), std::max(color.height, reflected.height), 4);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const auto albedo = texel_under(color, x, y, out.width, out.height);
+      const auto f0 = texel_under(reflected, x, y, out.width, out.height);
+      const float rest = 1.0F - largest_channel(specular_factor * glm::vec3(f0[0], f0[1], f0[2]));
+      for (std::size_t c = 0; c < 3; ++c) out.at(x, y)[c] = albedo[c] * rest;
+      out.at(x, y)[3] = albedo[3];
+    }
+  }
+  return map = MapTexels::packed(out);
 }
 
 MapTexels GltfMaterials::normals(int image, double scale) {

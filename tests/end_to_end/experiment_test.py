@@ -8,12 +8,14 @@ import shutil
 import signal
 import subprocess
 import time
+import tomllib
 import unittest
 import xml.etree.ElementTree
 
 from kept_runs import without_times
 from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, picture_facts, results_of, run
 
+BASELINE = SOURCE / "results" / "baselines" / "regression.json"
 HEAD = """[experiment]
 title = "A small one"
 scene = "ribbed_plane"
@@ -55,16 +57,59 @@ class Experiments(WholeRunTest):
 
     # The gates of continuous integration.
 
-    def test_every_method_holds_the_quick_check(self):
-        out = self.folder / "quick"
-        run("check", "quick", "--quiet", "-o", out)
-        results = results_of(out)
-        listed = [m for m in json.loads(run("list", "methods", "--json"))["methods"] if not m["slow_frame"]]
-        self.assertEqual({r["method"] for r in results["records"]}, {m["name"] for m in listed})
-        bounded = " ".join(t["measure"] for t in results["experiment"]["thresholds"])
-        for method in listed:
-            self.assertIn(f"error({method['name']})", bounded)
-        self.assert_matches_schema(out)
+    def check_regression(self, baseline=BASELINE):
+        """Exit code and standard output of what continuous integration checks; measured once, then reused."""
+        command = [PROGRAM, "check", "regression", "--quiet", "-o", self.folder / "regression", "--baseline", baseline]
+        done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout
+
+    @staticmethod
+    def members():
+        """The files of the experiment `regression`, as text, by name."""
+        load = lambda name: (SOURCE / "experiments" / f"{name}.toml").read_text(encoding="utf-8")
+        return {name: load(name) for name in tomllib.loads(load("regression"))["experiment"]["members"]}
+
+    @staticmethod
+    def without_bounds(methods, members):
+        """Bounds on a method of its own that no member has. A bound on every method says little of a single one."""
+        bounded = {measure for content in members.values() for measure in tomllib.loads(content)["threshold"]}
+        return [own for method in methods for own in (f"error({method})", f"abs(energy_bias({method}))") if own not in bounded]
+
+    def test_every_method_has_bounds_and_is_within_them_and_like_the_baseline(self):
+        methods = [method["name"] for method in json.loads(run("list", "methods", "--json"))["methods"]]
+        members = self.members()
+        self.assertEqual(self.without_bounds(methods, members), [])
+        self.assertEqual(self.without_bounds(["new"], members), ["error(new)", "abs(energy_bias(new))"])
+        less = {"quick": members["quick"].replace('"error(cells)"', '"error(*)"')}
+        self.assertEqual(self.without_bounds(["cells"], less), ["error(cells)"])
+        code, output = self.check_regression()
+        self.assertEqual(code, 0, output)
+        for name in members:
+            self.assert_matches_schema(self.folder / "regression" / name)
+
+    def test_bounds_just_below_what_is_measured_fail_for_every_method(self):
+        self.check_regression()
+        for name, content in self.members().items():
+            out = self.folder / "regression" / name
+            measured = {t["measure"]: t["measured"] for t in results_of(out)["experiment"]["thresholds"]}
+            twin = self.folder / f"{name}.toml"
+            tight, count = re.subn(r'(?m)^"(error\(\w+\)|abs\(energy_bias\(\w+\)\))" = .*$',
+                                   lambda bound: f'"{bound[1]}" = {0.999 * measured[bound[1]]}', content)
+            twin.write_text(tight, encoding="utf-8")
+            done = subprocess.run([PROGRAM, "check", twin, "--quiet", "-o", out], capture_output=True, text=True, check=False)
+            failed = [line for line in done.stdout.splitlines() if line.startswith("failed: threshold ")]
+            self.assertEqual((done.returncode, len(failed)), (1, count), done.stdout + done.stderr)
+
+    def test_another_figure_in_the_baseline_fails_with_method_distance_and_figure(self):
+        document = json.loads(BASELINE.read_text(encoding="utf-8"))
+        document["figures"]["quick"]["cells at 4"]["error"] += 2 * document["tolerance"]
+        doctored = self.folder / "doctored.json"
+        doctored.write_text(json.dumps(document), encoding="utf-8")
+        code, output = self.check_regression(doctored)
+        self.assertEqual(code, 1, output)
+        failed = [line for line in output.splitlines() if line.startswith("failed: ")]
+        self.assertEqual(len(failed), 1, output)
+        self.assertRegex(failed[0], r"quick: baseline cells at 4: error 0\.\d+, was 0\.\d+$")
 
     def assert_matches_schema(self, out):
         validator = SOURCE / "tests" / "report" / "schema_test.py"

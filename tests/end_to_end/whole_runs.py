@@ -50,6 +50,12 @@ class WholeRunTest(unittest.TestCase):
         )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def assert_matches_schema(self, out):
+        validator = SOURCE / "tests" / "report" / "schema_test.py"
+        command = ["/usr/bin/python3", "-B", validator, SOURCE / "docs" / "results.schema.json", out / "results.json"]
+        done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
+        self.assertIn(done.returncode, (0, 77), done.stderr)
+
 
 def results_of(folder):
     return json.loads((folder / "results.json").read_text(encoding="utf-8"))

@@ -11,6 +11,7 @@
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
+#include "renderer/scene/assembly/texel_spread.hpp"
 #include "renderer/scene/charts.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/model.hpp"
@@ -222,7 +223,7 @@ Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution 
 
 // The loaded maps of MapSettings, each over a whole material; shared by all materials.
 struct LaidMaps {
-  std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse, normals;
+  std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse, normals, normal_kappa;
 };
 
 LaidMaps load_maps(const PartSettings& settings, std::vector<std::string>& warnings) {
@@ -239,7 +240,9 @@ LaidMaps load_maps(const PartSettings& settings, std::vector<std::string>& warni
           load(settings.maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution); }),
           load(settings.maps.specular, [&](const auto& file) { return to_rgb(read_colors(file)); }),
           load(settings.maps.diffuse, [&](const auto& file) { return to_rgba(read_colors(file)); }),
-          std::move(normals)};
+          std::move(normals),
+          load(settings.maps.normal_kappa,
+               [](const auto& file) { return read_lobe_parameter(file, NormalDistribution::vmf); })};
 }
 
 void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material) {
@@ -258,6 +261,7 @@ void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material)
     material.metallic_roughness_map->image =
         MapTexels::packed(with_metallic(maps.roughness->image.decoded(), material.metallic));
   }
+  if (maps.normal_kappa) spread_normals(*maps.normal_kappa, material);
   if (maps.diffuse) {
     material.base_color_map = maps.diffuse;
     material.base_color = {settings.base_color.value_or(glm::vec3(1.0F)), material.base_color.a};

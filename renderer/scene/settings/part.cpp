@@ -208,11 +208,14 @@ MapSettings read_maps(const TomlTable& table, const BrdfSettings& brdf, const st
   refuse_width(lobe && table.has("roughness"), "excludes a map of roughness", "give one of the two");
   refuse_width(brdf.lobe_parameter.has_value(), "excludes a lobe parameter of [brdf]", "leave one of them out");
   refuse_width(!brdf.lobes.empty(), "excludes [[brdf.lobe]]", "lobes have their own parameters: leave one of them out");
+  if (table.has("normal_kappa") && !brdf.lobes.empty())
+    throw table.error_at("normal_kappa", "excludes [[brdf.lobe]]", "give the facets one lobe, or leave the map out");
   if (lobe) maps.lobe_parameter = read_map(table, *lobe, folder);
   maps.roughness = read_map(table, "roughness", folder);
   maps.specular = read_map(table, "specular", folder);
   maps.diffuse = read_map(table, "diffuse", folder);
   maps.normals = read_laid_normals(table, folder);
+  maps.normal_kappa = read_map(table, "normal_kappa", folder);
   maps.material = read_map(table, "material", folder);
   return maps;
 }
@@ -399,10 +402,14 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
           table.table("layer", {"bump_map", "slope_filter", "normal_map", "surface", "uv", "strength"})) {
     part.layer = read_layer(*layer, folder, surfaces);
   }
-  if (const auto maps = table.table(
-          "maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "normal", "height", "material"})) {
+  if (const auto maps = table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "normal",
+                                             "height", "normal_kappa", "material"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
     if (part.maps.normals) require_no_normals(table, *maps, part.content);
+    if (part.maps.normal_kappa && table.has("microgeometry")) {
+      throw maps->error_at("normal_kappa", "excludes [microgeometry], whose facets spread the normals",
+                           "give one of them");
+    }
   }
   if (const auto coat = table.table("clear_coat", {"weight", "roughness", "normal_map", "height_map"}))
     part.coat = read_coat(*coat, folder);

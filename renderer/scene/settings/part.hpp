@@ -76,7 +76,8 @@ struct LaidNormals {
 struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
   std::optional<LaidNormals> normals;
-  std::optional<MapFile> material;  ///< indices of the patches, if there are several
+  std::optional<MapFile> normal_kappa;  ///< concentration of the normals within a texel
+  std::optional<MapFile> material;      ///< indices of the patches, if there are several
 };
 
 /// A clear coat that replaces the materials' coats; weight 0 removes them.

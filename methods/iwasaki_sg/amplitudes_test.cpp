@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -105,6 +106,29 @@ std::vector<double> mass_sums(const Amplitudes& table) {
   std::vector<double> sums(pairs);
   for (std::size_t i = 0; i < table.masses.size(); ++i) sums[i % pairs] += table.masses[i];
   return sums;
+}
+
+// Plain least squares solve Eq. 8 itself, with amplitudes below 0 where lobes overlap; bounded ones have none.
+TEST(Amplitudes, OfAnySignSolveTheNormalEquations) {
+  const std::vector<SphericalGaussian> lobes{{glm::normalize(glm::dvec3(0.2, 0.0, 1.0)), 6.0},
+                                             {glm::normalize(glm::dvec3(-0.2, 0.1, 1.0)), 8.0},
+                                             {{0.0, 0.0, 1.0}, 5.0}};
+  const Patch patch = make_patch(find_patch_kind("pyramids"), {{"slope_degrees", "30"}});
+  const Table free = table_of(patch, lobes, Energy::any_sign), bounded = table_of(patch, lobes, Energy::published);
+  EXPECT_LT(*std::ranges::min_element(free.amplitudes.masses), -0.01F);
+  EXPECT_GE(*std::ranges::min_element(bounded.amplitudes.masses), 0.0F);
+  const std::size_t pairs = free.amplitudes.directions * free.amplitudes.directions;
+  for (std::size_t pair = 0; pair < pairs; ++pair) {
+    const double area = free.bvndf.visible_area[pair % free.amplitudes.directions];
+    if (!(free.sums.totals[pair] > 0.0) || area < 1e-6 * free.bvndf.total_area()) continue;
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+      double left = 0.0;
+      for (std::size_t j = 0; j < lobes.size(); ++j)
+        left += convolution(lobes[i], lobes[j]) * free.amplitudes.masses[j * pairs + pair] /
+                vmf_integral(lobes[j].sharpness);
+      EXPECT_NEAR(left, free.sums.products[i * pairs + pair] / area, 2e-3 * (1.0 + left));  // the ridge's share
+    }
+  }
 }
 
 // A lobe given twice: finite, not negative, and the same in sum.

@@ -178,11 +178,11 @@ class Solver {
   }
 
   /// The masses for right sides `products`, one per lobe.
-  [[nodiscard]] LobeVector masses(const LobeVector& products) const {
+  [[nodiscard]] LobeVector masses(const LobeVector& products, Energy energy) const {
     LobeVector scaled = products;
     for (Eigen::Index j = 0; j < scaled.size(); ++j) scaled[j] /= norms_[static_cast<std::size_t>(j)];
     LobeVector x = inverse_ * scaled;
-    if ((x.array() < 0.0).any()) x = solve_non_negative(matrix_, scaled);
+    if (energy != Energy::any_sign && (x.array() < 0.0).any()) x = solve_non_negative(matrix_, scaled);
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       x[j] *= integrals_[static_cast<std::size_t>(j)] / norms_[static_cast<std::size_t>(j)];
     }
@@ -307,7 +307,7 @@ Amplitudes solve_amplitudes(const Bvndf& bvndf, const BvndfSums& sums, std::span
         for (std::size_t j = 0; j < lobes.size(); ++j) {
           products[static_cast<Eigen::Index>(j)] = scale * sums.products[(c * lobes.size() + j) * pairs + pair];
         }
-        LobeVector masses = solver.masses(products);
+        LobeVector masses = solver.masses(products, energy);
         if (energy == Energy::conserved) conserve(masses, total);
         for (std::size_t j = 0; j < lobes.size(); ++j) {
           out.masses[(j * channels + c) * pairs + pair] = static_cast<float>(masses[static_cast<Eigen::Index>(j)]);

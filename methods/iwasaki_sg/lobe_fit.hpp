@@ -53,12 +53,16 @@ using LobeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_lobes, 1>;
 struct Amplitudes {
   std::vector<SphericalGaussian> lobes;
   std::size_t directions = 0, channels = 1;
-  std::vector<float> masses;   ///< [lobe][channel][wi][wo], all >= 0
+  std::vector<float> masses;   ///< [lobe][channel][wi][wo], all >= 0 unless of any sign
   std::vector<float> diffuse;  ///< [channel][wi][wo]: integral of gamma (n.wi)(n.wo) / a_v
 };
 
-/// Whether masses are rescaled to the sum of the BVNDF. The projection alone does not conserve it.
-enum class Energy { published, conserved };
+/// The constraints of the projection, which alone does not conserve the sum of the BVNDF.
+enum class Energy {
+  conserved,  ///< masses are not negative, and rescaled to that sum
+  published,  ///< not negative
+  any_sign    ///< none
+};
 
 /// Solves Eq. 8 for every pair. All values are 0 for directions that see less than 1e-6 of the patch.
 [[nodiscard]] Amplitudes solve_amplitudes(const Bvndf& bvndf, const BvndfSums& sums,

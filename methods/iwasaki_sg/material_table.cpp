@@ -49,9 +49,9 @@ std::vector<OptionSpec> option_table() {
           word_option("cosines", {"base", "published"},
                       "What facets weigh in the specular term: (n.wo), with the base BRDF's own cosine and geometry "
                       "term, or the paper's (n.wi)(n.wo) without a geometry term."),
-          word_option("energy", {"conserved", "published"},
-                      "Whether the amplitudes are scaled to the energy of the visible facets; plain least squares, as "
-                      "in the paper, does not conserve it."),
+          word_option("energy", {"conserved", "published", "any_sign"},
+                      "Whether the amplitudes are scaled to the energy of the visible facets; least squares, as in the "
+                      "paper, do not conserve it, and without a bound amplitudes may be below 0."),
           word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
 }
 
@@ -72,7 +72,9 @@ TableSettings table_settings(const Material& material, const Options& options, c
       .side = static_cast<int>(options.number("directions")),
       .facets = static_cast<std::size_t>(options.number("facets")),
       .cosines = options.word("cosines") == "published" || is_tabulated(material) ? Cosines::published : Cosines::base,
-      .energy = options.word("energy") == "conserved" ? Energy::conserved : Energy::published,
+      .energy = options.word("energy") == "conserved"   ? Energy::conserved
+                : options.word("energy") == "published" ? Energy::published
+                                                        : Energy::any_sign,
       .channels = has(effects, Effect::microgeometry_colour) ? std::size_t{3} : std::size_t{1},
       .paints = paint_factors(material)};
 }

@@ -90,6 +90,12 @@ std::uint64_t own_bytes(const fs::path& root, std::string_view key) {
   return 1024 * read_keyed_number(root / "proc/self/status", key).value_or(0);
 }
 
+// Without the limit of address space, which threads change from one reading to the next.
+std::uint64_t left_by_machine(const fs::path& root) {
+  const auto kibibytes = read_keyed_number(root / "proc/meminfo", "MemAvailable:");
+  return std::min(kibibytes ? *kibibytes * 1024 : unlimited, left_by_groups(root));
+}
+
 }  // namespace
 
 std::optional<AddressSpace> limited_address_space(const fs::path& root) {
@@ -105,9 +111,8 @@ std::optional<AddressSpace> limited_address_space(const fs::path& root) {
 }
 
 std::uint64_t available_memory(const fs::path& root) {
-  const auto kibibytes = read_keyed_number(root / "proc/meminfo", "MemAvailable:");
   const auto space = limited_address_space(root);
-  return std::min({kibibytes ? *kibibytes * 1024 : unlimited, left_by_groups(root), space ? space->left : unlimited});
+  return std::min(left_by_machine(root), space ? space->left : unlimited);
 }
 
 std::string taken_memory_text(const fs::path& root) {
@@ -136,9 +141,9 @@ std::string readable_bytes(std::uint64_t bytes) {
 }
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view hint) {
-  const std::uint64_t available = available_memory();
-  if (bytes <= available) return;
   const auto space = limited_address_space();
+  const std::uint64_t available = std::min(left_by_machine("/"), space ? space->left : unlimited);
+  if (bytes <= available) return;
   const std::string limit = space && space->left == available
                                 ? fmt::format(" of the {} that `ulimit -v` grants", readable_bytes(space->limit))
                                 : std::string();

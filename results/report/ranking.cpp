@@ -117,12 +117,12 @@ std::string worth_text(const Record& record) {
 std::string price_text(const Record& record) {
   const TimeRatio& ratio = record.ratio_to_direct;
   if (!std::isfinite(ratio.median)) return fmt::format("takes {} ms per frame", three_figures(record.frame_ms.median));
-  if (record.method == "direct") return "is direct itself";
+  if (is_unit_frame(record)) return "is direct itself";
   return fmt::format("costs {} times as much as direct", ratio_text(ratio));
 }
 
 std::string what_it_costs(const Record& record) {
-  if (record.method == "direct") return {};  // against itself there is nothing to say
+  if (is_unit_frame(record)) return {};  // against itself there is nothing to say
   return fmt::format("{} {}{}.", record.method, price_text(record), worth_text(record));
 }
 

@@ -40,6 +40,9 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 /// The error that methods are ranked by: shading, over interior pixels. None without one, or over too few pixels.
 [[nodiscard]] std::optional<double> ranked_error(const Record& record);
 
+/// Whether the record is that of single frames of `direct`, which others are compared with.
+[[nodiscard]] inline bool is_unit_frame(const Record& record) { return record.method == "direct" && !record.history; }
+
 /// Whether `a` is better than `b` by more than the reference's own noise over those pixels explains: by three standard
 /// errors of the difference. Never where that noise is not known.
 [[nodiscard]] bool is_better(const Record& a, const Record& b);

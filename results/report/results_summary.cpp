@@ -25,7 +25,7 @@ std::optional<double> error_of_direct(const Results& results, double distance) {
     if (point.distance == distance && point.spp == 1) return point.shading;
   }
   for (const Record& record : results.records) {
-    if (record.distance == distance && record.method == "direct") return ranked_error(record);
+    if (record.distance == distance && is_unit_frame(record)) return ranked_error(record);
   }
   return {};
 }
@@ -60,15 +60,15 @@ std::string most_accurate(const DistanceRecords& best, const std::optional<doubl
           : fmt::format("{} are the most accurate, with no difference beyond the reference's noise: error {}",
                         fmt::join(names, ", "), range_text(*ranked_error(first), *ranked_error(best.back())));
   const std::string change = change_text(ranked_error(first), direct);
-  if (!change.empty() && first.method != "direct") text += fmt::format(" ({} against direct)", change);
-  if (cheapest.method == "direct") return text + ".";
+  if (!change.empty() && !is_unit_frame(first)) text += fmt::format(" ({} against direct)", change);
+  if (is_unit_frame(cheapest)) return text + ".";
   return text + fmt::format(", at {}{}.", cost_phrase(cheapest),
                             best.size() == 1 ? "" : fmt::format(" with {}", cheapest.method));
 }
 
 // The cheapest one that is better than `direct` beyond noise; empty where that is among `best`, or unknown.
 std::string cheapest_gain(const DistanceRecords& records, const DistanceRecords& best) {
-  const auto direct = std::ranges::find(records, "direct", [](const Record& r) { return r.method; });
+  const auto direct = std::ranges::find_if(records, is_unit_frame);
   if (direct == records.end()) return {};
   const Record* cheapest = nullptr;
   for (const Record& record : records) {
@@ -97,7 +97,7 @@ std::string seconds_text(double seconds) {
 
 Row row_of(const Results& results, const Record& record) {
   const std::optional<double> error = ranked_error(record);
-  const bool is_direct = record.method == "direct";
+  const bool is_direct = is_unit_frame(record);
   return {fmt::format("{:g}", record.distance),
           record.method,
           record.failure ? "failed"

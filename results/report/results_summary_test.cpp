@@ -51,6 +51,13 @@ TEST(ResultsSummary, AnswersBeforeTheTable) {
   EXPECT_LT(text.find("cheap", table), text.find("direct", table));
 }
 
+TEST(ResultsSummary, AHistoryOfDirectIsComparedWithItsSingleFrame) {
+  Record history = row("direct", 0.05, 2);
+  history.history = {.frames = 24, .alpha = 0.1, .clamp = "off", .jitter = true};
+  EXPECT_TRUE(says(results_summary(run_of({history, row("a", 0.1, 3)})),
+                   "direct is the most accurate: error 0.05000 (-75% against direct), at 2.00 times the frame time"));
+}
+
 TEST(ResultsSummary, NamesAllThatNoiseLeavesAlike) {
   const std::string text = results_summary(run_of({row("a", 0.1, 2, 0.01), row("b", 0.101, 1.5, 0.01)}));
   EXPECT_TRUE(says(text,

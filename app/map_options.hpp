@@ -2,11 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <optional>
 #include <string>
 
-#include "renderer/core/error.hpp"
+#include "app/number_check.hpp"
 #include "renderer/scene/normal_file.hpp"
 
 namespace footprint {
@@ -18,20 +17,18 @@ class MapOptions {
     auto* scale =
         command.add_option("--height-scale", scale_, "MAP stores heights; the height of value 1 in widths of the map")
             ->type_name("X")
-            ->check(CLI::Range(-100.0, 100.0));
+            ->check(within(-100.0, 100.0));
     command.add_option("--slope-filter", filter_, "Derivative of the heights: central, sobel or scharr")
         ->type_name("WORD")
         ->needs(scale)
         ->capture_default_str();
   }
 
-  /// The file with these options. Throws Error (usage): an unknown filter, a scale that is not finite.
+  /// The file with these options. Throws Error (usage): an unknown filter.
   [[nodiscard]] NormalFile of(const std::string& path) const {
     NormalFile file{.path = path};
     const SlopeFilter filter = word_value(slope_filters, filter_, "slope filter", "--slope-filter");
     if (!scale_) return file;
-    if (!std::isfinite(*scale_))  // CLI::Range takes NaN
-      throw Error(ErrorKind::usage, "--height-scale", "is not a number", "give the height of value 1, -100 to 100");
     file.scale = *scale_;
     file.heights = HeightSettings{.filter = filter};
     return file;

@@ -15,6 +15,7 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
+#include "app/number_check.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
@@ -247,7 +248,7 @@ void add_score_command(CLI::App& app) {
   command
       ->add_option("--pixels-per-degree", arguments->pixels_per_degree,
                    "Pixels per degree of the observer's field of view, for FLIP")
-      ->check(CLI::Range(5.0, 1000.0))
+      ->check(within(5.0, 1000.0))
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder for score.json and images; default: none")
       ->type_name("DIR");

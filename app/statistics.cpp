@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/map_options.hpp"
 #include "app/messages.hpp"
+#include "app/number_check.hpp"
 #include "renderer/bake/lobe_errors.hpp"
 #include "renderer/bake/map_statistics.hpp"
 #include "renderer/core/error.hpp"
@@ -157,7 +158,7 @@ void add_statistics_command(CLI::App& app) {
                         ->type_name("FILE");
   command->add_option("--alpha", arguments->alpha, "GGX's alpha, above 0 to 1")
       ->type_name("X")
-      ->check(CLI::Range(smallest_alpha, 1.0))
+      ->check(within(smallest_alpha, 1.0))
       ->excludes(roughness);
   command->add_flag("--json", arguments->json, "JSON instead of text, for programs");
   command->footer(statistics_examples);

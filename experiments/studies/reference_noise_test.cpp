@@ -44,5 +44,20 @@ TEST(AsConverged, IsCoveredAsTheReferenceIs) {
   EXPECT_EQ(as_converged(pixel(0.9F, 0.9F, 0.9F, 1), pixel(0.2F, 0.2F, 0.2F, 1), reference).texels[3], 0.5F);
 }
 
+// Of two grey pixels the first was a highlight that is gone: 0.75 of it is left in the image. The second pixel's error
+// does not count.
+TEST(Ghosting, IsTheErrorWhereTheReferenceGotDarker) {
+  const auto greys = [](float first, float second) {
+    Image image(2, 1, 4);
+    image.texels = {first, first, first, 1, second, second, second, 1};
+    return image;
+  };
+  const Supersampled before{.spp = 1, .mean = greys(1.0F, 0.5F), .standard_error = {}, .halves = {}};
+  const Supersampled now{.spp = 1, .mean = greys(0.0F, 0.5F), .standard_error = {}, .halves = {}};
+  EXPECT_NEAR(flicker_between(before.mean, greys(0.75F, 0.9F), before, now, 1.0F)->ghosting.value(), 0.75, 1e-6);
+  EXPECT_EQ(flicker_between(before.mean, greys(0.0F, 0.9F), before, now, 1.0F)->ghosting, 0.0);
+  EXPECT_FALSE(flicker_between(now.mean, greys(0.75F, 0.9F), now, before, 1.0F)->ghosting) << "it got brighter";
+}
+
 }  // namespace
 }  // namespace footprint

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "renderer/scene/model.hpp"
+#include "tests/support/expect_near.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/says.hpp"
 
@@ -15,6 +16,7 @@ namespace footprint {
 namespace {
 
 using nlohmann::json;
+using test::expect_near;
 using test::GltfBuilder;
 using test::make_quad;
 using test::says;
@@ -41,29 +43,25 @@ glm::vec3 centre_of(const Model& model) {
   return sum / static_cast<float>(vertices.size());
 }
 
-void expect_place(const glm::vec3& value, const glm::vec3& expected, float most = 1e-6F) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], most) << i;
-}
-
 TEST(GltfAnimation, TranslationsAreInterpolatedAndHeldBeyondTheKeys) {
   const GltfBuilder file = animated("translation", {1, 3, 4}, {0, 0, 0, 4, 2, 0, 4, 2, 8}, "VEC3", "LINEAR");
-  expect_place(centre_of(at(file, 0.0)), {0, 0, 0});
-  expect_place(centre_of(at(file, 1.5)), {1, 0.5F, 0});
-  expect_place(centre_of(at(file, 3.25)), {4, 2, 2});
-  expect_place(centre_of(at(file, 9.0)), {4, 2, 8});
+  expect_near(centre_of(at(file, 0.0)), {0, 0, 0});
+  expect_near(centre_of(at(file, 1.5)), {1, 0.5F, 0});
+  expect_near(centre_of(at(file, 3.25)), {4, 2, 2});
+  expect_near(centre_of(at(file, 9.0)), {4, 2, 8});
   const GltfBuilder steps = animated("translation", {1, 3}, {0, 0, 0, 4, 2, 0}, "VEC3", "STEP");
-  expect_place(centre_of(at(steps, 2.999)), {0, 0, 0});
-  expect_place(centre_of(at(steps, 3.0)), {4, 2, 0});
+  expect_near(centre_of(at(steps, 2.999)), {0, 0, 0});
+  expect_near(centre_of(at(steps, 3.0)), {4, 2, 0});
 }
 
 TEST(GltfAnimation, IsAtRestUnlessATimeOrAnAnimationIsGiven) {
   GltfBuilder file = animated("translation", {0, 1}, {5, 0, 0, 6, 0, 0}, "VEC3", "LINEAR");
   file.json["nodes"][0]["translation"] = {9, 0, 0};
   const Model rest = load_gltf(file.write());
-  expect_place(centre_of(rest), {9, 0, 0});
+  expect_near(centre_of(rest), {9, 0, 0});
   EXPECT_TRUE(rest.warnings.empty());
-  expect_place(centre_of(load_gltf(file.write(), {.animation = "move"})), {5, 0, 0});
-  expect_place(centre_of(load_gltf(file.write(), {.animation = "0", .time = 0.5})), {5.5F, 0, 0});
+  expect_near(centre_of(load_gltf(file.write(), {.animation = "move"})), {5, 0, 0});
+  expect_near(centre_of(load_gltf(file.write(), {.animation = "0", .time = 0.5})), {5.5F, 0, 0});
   EXPECT_TRUE(says(usage_error([&] { return load_gltf(file.write(), {.animation = "mave"}); }), "move"));
   EXPECT_TRUE(says(usage_error([&] { return load_gltf(make_quad().write(), {.time = 1.0}); }), "animation"));
 }
@@ -77,7 +75,7 @@ TEST(GltfAnimation, RotationsFollowTheShorterArc) {
     for (const Vertex& vertex : model.meshes.at(0).vertices) {
       const bool is_on_an_axis = std::min(std::abs(vertex.position.x), std::abs(vertex.position.y)) < 1e-6F;
       EXPECT_TRUE(is_on_an_axis) << "corners at 45 degrees are turned by 45 degrees";
-      expect_place(vertex.normal, {0, 0, 1});
+      expect_near(vertex.normal, {0, 0, 1});
     }
   }
   const Model scaled = at(animated("scale", {0, 1}, {1, 1, 1, 3, 1, 1}, "VEC3", "LINEAR"), 0.5);
@@ -92,9 +90,9 @@ TEST(GltfAnimation, SplinesHaveTangentsInUnitsPerSecond) {
                                     "VEC3", "CUBICSPLINE");
   const double t = 0.25, value0 = 2 * t * t * t - 3 * t * t + 1, leave = 2 * (t * t * t - 2 * t * t + t),
                value1 = 3 * t * t - 2 * t * t * t, arrive = 2 * (t * t * t - t * t);
-  expect_place(centre_of(at(file, 0.5)), {static_cast<float>(value0 + 3 * value1), static_cast<float>(4 * leave),
-                                          static_cast<float>(8 * arrive)});
-  expect_place(centre_of(at(file, 2.0)), {3, 0, 0});
+  expect_near(centre_of(at(file, 0.5)),
+              {static_cast<float>(value0 + 3 * value1), static_cast<float>(4 * leave), static_cast<float>(8 * arrive)});
+  expect_near(centre_of(at(file, 2.0)), {3, 0, 0});
 }
 
 // Targets of the quad that lift it and push it, with normals that lean.
@@ -113,17 +111,17 @@ GltfBuilder morphed() {
 
 TEST(GltfMorph, WeightsAreTheAnimationsThenTheNodesThenTheMeshes) {
   GltfBuilder file = morphed();
-  expect_place(centre_of(load_gltf(file.write())), {0, 0, 0});
+  expect_near(centre_of(load_gltf(file.write())), {0, 0, 0});
   file.json["meshes"][0]["weights"] = {0.5, 0.25};
-  expect_place(centre_of(load_gltf(file.write())), {1, 0, 1});
+  expect_near(centre_of(load_gltf(file.write())), {1, 0, 1});
   file.json["nodes"][0]["weights"] = {0, 1};
   const Model model = load_gltf(file.write());
-  expect_place(centre_of(model), {4, 0, 0});
-  expect_place(model.meshes.at(0).vertices[0].normal, {std::sqrt(0.5F), 0, std::sqrt(0.5F)});
+  expect_near(centre_of(model), {4, 0, 0});
+  expect_near(model.meshes.at(0).vertices[0].normal, {std::sqrt(0.5F), 0, std::sqrt(0.5F)});
   const int times = file.add_floats({0, 1}, "SCALAR"), weights = file.add_floats({0, 0, 1, 1}, "SCALAR");
   file.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
                               {"samplers", {{{"input", times}, {"output", weights}}}}}};
-  expect_place(centre_of(at(file, 0.5)), {2, 0, 1});
+  expect_near(centre_of(at(file, 0.5)), {2, 0, 1});
 }
 
 // The quad with a skin of two joints, nodes 1 and 2; vertices 0 and 1 have half of each, the others weights of `other`.
@@ -160,16 +158,16 @@ glm::vec3 shift_of(const Model& model, int i) {
 TEST(GltfSkin, VerticesFollowTheirJoints) {
   const Model model = load_gltf(skinned({0, 1, 0, 0}).write());
   for (int i = 0; i < 4; ++i) {
-    expect_place(shift_of(model, i), i < 2 ? glm::vec3(0.5F, 3, 0) : glm::vec3(0, 6, 0));
-    expect_place(corner(model, i).normal, {0, 0, 1});
+    expect_near(shift_of(model, i), i < 2 ? glm::vec3(0.5F, 3, 0) : glm::vec3(0, 6, 0));
+    expect_near(corner(model, i).normal, {0, 0, 1});
   }
   EXPECT_TRUE(model.warnings.empty());
 }
 
 TEST(GltfSkin, WeightsAreDividedByTheirSumAndTheFirstJointTakesOver) {
   const Model large = load_gltf(skinned({0, 4, 0, 0}).write()), none = load_gltf(skinned({0, 0, 0, 0}).write());
-  expect_place(shift_of(large, 3), {0, 6, 0});
-  expect_place(shift_of(none, 3), {1, 0, 0});
+  expect_near(shift_of(large, 3), {0, 6, 0});
+  expect_near(shift_of(none, 3), {1, 0, 0});
   EXPECT_TRUE(says(large.warnings.at(0), "2 vertices whose joints' weights do not sum to 1"));
   EXPECT_TRUE(says(load_gltf(skinned({0, NAN, 0, 0}).write()).warnings.at(0), "do not sum to 1"));
 }

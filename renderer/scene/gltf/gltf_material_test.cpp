@@ -1,0 +1,268 @@
+// What the materials and the textures of a well-formed glTF file become, against values worked out by hand.
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "renderer/scene/model.hpp"
+#include "tests/support/expect_near.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/says.hpp"
+
+namespace footprint {
+namespace {
+
+using nlohmann::json;
+using test::expect_near;
+using test::GltfBuilder;
+using test::make_quad;
+using test::says;
+
+Image one_colour(const glm::vec3& bytes) {
+  Image image(2, 2, 3);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = bytes[static_cast<int>(i % 3)] / 255.0F;
+  return image;
+}
+
+TEST(Gltf, MaterialFactorsAndFlags) {
+  GltfBuilder quad = make_quad();
+  quad.json["materials"] = {
+      {{"name", "m"},
+       {"doubleSided", true},
+       {"alphaMode", "MASK"},
+       {"alphaCutoff", 0.25},
+       {"emissiveFactor", {0, 1, 0}},
+       {"extensions", {{"KHR_materials_ior", {{"ior", 2.0}}}}},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.75}}}}};
+  quad.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Model model = load_gltf(quad.write());
+  const Material& material = model.materials.at(0);
+  EXPECT_EQ(material.base_color, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+  EXPECT_EQ(material.metallic, 0.5F);
+  EXPECT_EQ(material.roughness, 0.75F);
+  EXPECT_EQ(material.alpha_cutoff, 0.25F);
+  EXPECT_TRUE(material.double_sided);
+  EXPECT_NEAR(material.dielectric_specular.g, 1.0 / 9.0, 1e-6);
+  EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_sheen"));
+  EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "emissive"));
+  EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_ior"));
+}
+
+TEST(Gltf, MapsAreDecodedAndShared) {
+  GltfBuilder quad = make_quad();
+  Image stored(2, 2, 3, 1.0F);
+  stored.at(0, 0)[0] = 128.0F / 255.0F;
+  const int texture = quad.add_texture(stored);
+  const json info = {{"index", texture}};
+  quad.json["materials"] = {{{"pbrMetallicRoughness",
+                              {{"baseColorTexture", info},
+                               {"metallicRoughnessTexture", info},
+                               {"metallicFactor", 0.5},
+                               {"roughnessFactor", 0.25}}},
+                             {"normalTexture", info}},
+                            {{"normalTexture", info}}};
+  auto& primitives = quad.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[0]["material"] = 0;
+  primitives[1]["material"] = 1;
+  const Model model = load_gltf(quad.write());
+  const Material& material = model.materials.at(0);
+  ASSERT_TRUE(material.base_color_map && material.metallic_roughness_map && material.normal_map);
+  // IEC 61966-2-1 at 128 / 255.
+  EXPECT_NEAR(material.base_color_map->image.decoded().at(0, 0)[0], 0.2158605, 1e-5);
+  EXPECT_EQ(material.base_color_map->image.decoded().at(1, 1)[3], 1.0F);
+  EXPECT_FLOAT_EQ(material.metallic_roughness_map->image.decoded().at(0, 0)[0], 0.25F);
+  EXPECT_FLOAT_EQ(material.metallic_roughness_map->image.decoded().at(0, 0)[1], 0.5F);
+  // (0.0039, 1, 1) normalised.
+  EXPECT_NEAR(material.normal_map->image.decoded().at(0, 0)[2], std::sqrt(0.5), 1e-5);
+  EXPECT_EQ(material.normal_map->image, model.materials.at(1).normal_map->image);
+}
+
+TEST(Gltf, ClearCoatsHaveFactorsAndMapsOfTheirOwn) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(one_colour({51.0F, 102.0F, 255.0F}));
+  const json shifted = {{"index", texture},
+                        {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.0}}, {"texCoord", 0}}}}}};
+  const json coat = {{"clearcoatFactor", 0.5},
+                     {"clearcoatTexture", {{"index", texture}}},
+                     {"clearcoatRoughnessFactor", 0.25},
+                     {"clearcoatRoughnessTexture", shifted},
+                     {"clearcoatNormalTexture", {{"index", texture}, {"scale", 2.0}}}};
+  quad.json["materials"] = {{{"extensions", {{"KHR_materials_clearcoat", coat}}}},
+                            {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}}}}}},
+                            {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", 0.5}}}}}}};
+  quad.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+  auto& primitives = quad.json["meshes"][0]["primitives"];
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) primitives.push_back(primitives[0]);
+    primitives[static_cast<std::size_t>(i)]["material"] = i;
+  }
+  const Model model = load_gltf(quad.write());
+  EXPECT_TRUE(model.warnings.empty());
+  const std::optional<ClearCoat>& mapped = model.materials.at(0).coat;
+  ASSERT_TRUE(mapped && mapped->weight_map && mapped->roughness_map && mapped->normal_map);
+  EXPECT_FLOAT_EQ(mapped->weight_map->image.decoded().at(0, 0)[0], 0.5F * 51.0F / 255.0F);       // red
+  EXPECT_FLOAT_EQ(mapped->roughness_map->image.decoded().at(0, 0)[0], 0.25F * 102.0F / 255.0F);  // green
+  EXPECT_EQ(mapped->roughness_map->coordinates.transform[2], glm::vec2(0.5F, 0.0F));
+  const glm::vec3 leaning = glm::normalize(glm::vec3(2.0F * -0.6F, 2.0F * -0.2F, 1.0F));
+  const Image normals = mapped->normal_map->image.decoded();
+  expect_near({normals.at(0, 0)[0], normals.at(0, 0)[1], normals.at(0, 0)[2]}, leaning);
+  const std::optional<ClearCoat>& constant = model.materials.at(1).coat;
+  ASSERT_TRUE(constant);
+  EXPECT_EQ(constant->weight, 0.75F);
+  EXPECT_EQ(constant->roughness, 0.0F);
+  EXPECT_FALSE(constant->weight_map || constant->roughness_map || constant->normal_map);
+  EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is not a coat";
+}
+
+// KHR_materials_unlit: the base colour alone. What is about light is left out, without a warning.
+TEST(Gltf, UnlitMaterialsHaveTheirColourAlone) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(one_colour({51.0F, 102.0F, 255.0F}));
+  quad.json["materials"] = {{{"extensions", {{"KHR_materials_unlit", json::object()}}},
+                             {"normalTexture", {{"index", texture}}},
+                             {"doubleSided", true},
+                             {"pbrMetallicRoughness",
+                              {{"baseColorFactor", {0.5, 0.25, 1.0, 0.75}},
+                               {"roughnessFactor", 0.5},
+                               {"metallicRoughnessTexture", {{"index", texture}}},
+                               {"baseColorTexture", {{"index", texture}}}}}}};
+  quad.json["extensionsRequired"] = quad.json["extensionsUsed"] = {"KHR_materials_unlit"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Model model = load_gltf(quad.write());
+  EXPECT_TRUE(model.warnings.empty());
+  const Material& material = model.materials.at(0);
+  EXPECT_TRUE(material.unlit && material.double_sided && material.base_color_map);
+  EXPECT_EQ(material.base_color, glm::vec4(0.5F, 0.25F, 1.0F, 0.75F));
+  EXPECT_FALSE(material.normal_map || material.metallic_roughness_map);
+}
+
+json glossy_material(const json& extension) {
+  return {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", extension}}},
+          {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}};  // for readers without the extension
+}
+
+GltfBuilder glossy_quad(GltfBuilder quad, const json& extension) {
+  quad.json["materials"] = {glossy_material(extension)};
+  quad.json["extensionsRequired"] = quad.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  return quad;
+}
+
+// The diffuse albedo is diffuse (1 - max specular), F0 is specular, and roughness is 1 - glossiness.
+TEST(Gltf, GlossyMaterialsKeepTheirReflectances) {
+  const Model model = load_gltf(glossy_quad(make_quad(), {{"diffuseFactor", {0.8, 0.4, 0.2, 0.5}},
+                                                          {"specularFactor", {0.1, 0.25, 0.2}},
+                                                          {"glossinessFactor", 0.7}})
+                                    .write());
+  EXPECT_TRUE(model.warnings.empty());
+  const Material& material = model.materials.at(0);
+  EXPECT_EQ(material.metallic, 0.0F);
+  EXPECT_FLOAT_EQ(material.roughness, 0.3F);
+  EXPECT_EQ(material.dielectric_specular, glm::vec3(0.1F, 0.25F, 0.2F));
+  for (const auto& [channel, wanted] : {std::pair{0, 0.6F}, {1, 0.3F}, {2, 0.15F}, {3, 0.5F}})
+    EXPECT_FLOAT_EQ(material.base_color[channel], wanted);
+  const Material defaults = load_gltf(glossy_quad(make_quad(), json::object()).write()).materials.at(0);
+  EXPECT_EQ(defaults.roughness, 0.0F);
+  EXPECT_EQ(defaults.dielectric_specular, glm::vec3(1.0F));
+  EXPECT_EQ(defaults.base_color, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+}
+
+// Texel by texel: colours are sRGB, glossiness is linear, and a smaller texture is looked up by its nearest texel.
+TEST(Gltf, GlossyTexturesAreConvertedTexelByTexel) {
+  GltfBuilder quad = make_quad();
+  Image diffuse(1, 2, 4, 1.0F), specular(4, 2, 4, 0.0F);
+  diffuse.at(0, 1)[1] = 128.0F / 255.0F;  // linear 0.2158605, IEC 61966-2-1
+  diffuse.at(0, 1)[3] = 0.2F;
+  specular.at(3, 1)[0] = 128.0F / 255.0F;
+  specular.at(3, 1)[3] = 0.6F;
+  const json extension = {{"diffuseTexture", {{"index", quad.add_texture(diffuse)}}},
+                          {"diffuseFactor", {0.5, 1.0, 1.0, 1.0}},
+                          {"specularFactor", {0.5, 1.0, 1.0}},
+                          {"specularGlossinessTexture", {{"index", quad.add_texture(specular)}}},
+                          {"glossinessFactor", 0.5}};
+  const Material material = load_gltf(glossy_quad(quad, extension).write()).materials.at(0);
+  ASSERT_TRUE(material.base_color_map && material.specular_map && material.metallic_roughness_map);
+  const Image color = material.base_color_map->image.decoded(), f0 = material.specular_map->image.decoded(),
+              rough = material.metallic_roughness_map->image.decoded();
+  EXPECT_EQ(glm::ivec2(color.width, color.height), glm::ivec2(4, 2));
+  const double rest = 1.0 - 0.5 * 0.2158605;
+  EXPECT_NEAR(color.at(3, 1)[0], rest, 1e-5);
+  EXPECT_NEAR(color.at(3, 1)[1], 0.2158605 * rest, 1e-5);
+  EXPECT_NEAR(color.at(3, 1)[3], 0.2, 1e-5);
+  EXPECT_NEAR(color.at(2, 1)[1], 0.2158605, 1e-5);
+  EXPECT_NEAR(color.at(3, 0)[1], 1.0, 1e-5);
+  EXPECT_EQ(material.base_color, glm::vec4(0.5F, 1.0F, 1.0F, 1.0F));
+  EXPECT_NEAR(f0.at(3, 1)[0], 0.2158605, 1e-5);
+  EXPECT_EQ(material.dielectric_specular, glm::vec3(0.5F, 1.0F, 1.0F));
+  EXPECT_NEAR(rough.at(3, 1)[0], 1.0 - 0.5 * 0.6, 1e-5);
+  EXPECT_EQ(rough.at(0, 0)[0], 1.0F);
+  EXPECT_EQ(rough.at(3, 1)[1], 0.0F);
+}
+
+TEST(Gltf, GlossyTexturesMayHaveCoordinatesOfTheirOwn) {
+  GltfBuilder quad = make_quad();
+  Image specular(2, 1, 4, 0.0F);
+  specular.at(1, 0)[2] = 1.0F;
+  const json shifted = {{"index", quad.add_texture(specular)},
+                        {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.0}}}}}}};
+  json extension = {{"specularGlossinessTexture", shifted}, {"specularFactor", {1.0, 1.0, 0.5}}};
+  const Model alone = load_gltf(glossy_quad(quad, extension).write());
+  EXPECT_TRUE(alone.warnings.empty());
+  EXPECT_FLOAT_EQ(alone.materials.at(0).base_color_map->image.decoded().at(1, 0)[0], 0.5F);
+  EXPECT_EQ(alone.materials.at(0).base_color_map->coordinates.transform[2], glm::vec2(0.5F, 0.0F));
+  extension["diffuseTexture"] = {{"index", quad.add_texture(Image(2, 2, 3, 1.0F))}};
+  const Model both = load_gltf(glossy_quad(quad, extension).write());
+  EXPECT_TRUE(says(fmt::format("{}", fmt::join(both.warnings, "; ")), "the mean over the texture, 0.75"));
+  EXPECT_EQ(both.materials.at(0).base_color, glm::vec4(0.75F, 0.75F, 0.75F, 1.0F));
+  EXPECT_EQ(both.materials.at(0).base_color_map->image.decoded().at(1, 0)[0], 1.0F);
+}
+
+/// The example of KHR_texture_transform: the lower left quadrant of the image, turned clockwise by 90 degrees.
+TEST(Gltf, TextureTransformTurnsAsTheExtensionsExample) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(Image(1, 1, 3, 1.0F));
+  quad.json["textures"][0]["sampler"] = 0;
+  quad.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
+  quad.json["materials"] = {
+      {{"normalTexture",
+        {{"index", texture},
+         {"extensions",
+          {{"KHR_texture_transform",
+            {{"offset", {0, 1}}, {"rotation", std::numbers::pi / 2.0}, {"scale", {0.5, 0.5}}}}}}}}}};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Model model = load_gltf(quad.write());
+  const TextureCoordinates& coordinates = model.materials.at(0).normal_map->coordinates;
+  const auto look_up = [&](float u, float v) { return coordinates.transform * glm::vec3{u, v, 1.0F}; };
+  const auto expect_at = [&](const glm::vec2& actual, const glm::vec2& expected) {
+    EXPECT_NEAR(actual.x, expected.x, 1e-6F);
+    EXPECT_NEAR(actual.y, expected.y, 1e-6F);
+  };
+  expect_at(look_up(0, 0), {0.0F, 1.0F});  // the image's lower left corner comes to the top left: clockwise
+  expect_at(look_up(1, 0), {0.0F, 0.5F});
+  expect_at(look_up(0, 1), {0.5F, 1.0F});
+  expect_at(look_up(1, 1), {0.5F, 0.5F});
+  EXPECT_EQ(coordinates.wrap, (std::array{Wrap::clamp_to_edge, Wrap::mirrored_repeat}));
+  // u' grows with v, which points down on the quad; v' falls with u.
+  for (const Vertex& vertex : model.meshes.at(0).vertices) {
+    expect_near(glm::vec3{vertex.tangent}, {0, -1, 0});
+    expect_near(glm::cross(vertex.normal, glm::vec3{vertex.tangent}) * vertex.tangent.w, {1, 0, 0});
+  }
+}
+
+TEST(Gltf, TextureTransformMayNameAnotherSet) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(Image(1, 1, 3, 1.0F));
+  quad.json["materials"] = {
+      {{"normalTexture", {{"index", texture}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 1}}}}}}}}};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Model model = load_gltf(quad.write());
+  EXPECT_EQ(model.materials.at(0).normal_map->coordinates.set, 1);
+  EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "no TEXCOORD_1"));
+}
+
+}  // namespace
+}  // namespace footprint

@@ -19,13 +19,16 @@ namespace footprint {
 namespace {
 
 constexpr const char* edit_examples =
-    "SCENE is a scene, or a path to a scene.toml, whose [microgeometry] has a kind. KIND.PARAMETER is a parameter of\n"
-    "that kind (docs/scenes.md). The folder gets images/METHOD_NNNN (.exr and .png), edit.json, edit.csv and "
+    "KIND.PARAMETER is a parameter of the scene's [microgeometry] (docs/scenes.md) or brdf.PARAMETER: roughness,\n"
+    "exponent, alpha, kappa, specular, metallic, or measured with two MERL files. The folder gets images/METHOD_NNNN "
+    "(.exr and .png), edit.json, edit.csv and "
     "table.md.\n"
     "\n"
     "Examples:\n"
     "  footprint edit woven_cloth --set weave.warp_width=0.1:0.5 --frames 10 -o out\n"
-    "  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o out";
+    "  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o "
+    "out\n"
+    "  footprint edit ribbed_plane --set brdf.exponent=10:1000 --method xu_vmf -o out";
 
 struct EditArguments {
   explicit EditArguments(CLI::App& command) : run(command) {}
@@ -79,7 +82,8 @@ void run_edit_command(const EditArguments& arguments) {
 }  // namespace
 
 void add_edit_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("edit", "Edit small-scale geometry frame by frame and time each stage");
+  CLI::App* command =
+      app.add_subcommand("edit", "Edit small-scale geometry or the base BRDF frame by frame and time each stage");
   const auto arguments = std::make_shared<EditArguments>(*command);
   add_options(*command, *arguments);
   command->footer(edit_examples);

@@ -48,16 +48,18 @@ struct ZoomSettings {
 
 /// The part that moves from frame to frame of an animation.
 enum class AnimationPath {
-  zoom,   ///< the camera along its own axis
-  orbit,  ///< the camera around the centre of the bounds
-  light   ///< all lights together, around it
+  zoom,      ///< the camera along its own axis
+  orbit,     ///< the camera around the centre of the bounds
+  light,     ///< all lights together, around it
+  animation  ///< meshes, camera and lights of the model file, by its keys
 };
 
 /// As users write it.
-inline constexpr std::array<Word<AnimationPath>, 3> animation_paths{{
+inline constexpr std::array<Word<AnimationPath>, 4> animation_paths{{
     {AnimationPath::zoom, "zoom"},
     {AnimationPath::orbit, "orbit"},
     {AnimationPath::light, "light"},
+    {AnimationPath::animation, "animation"},
 }};
 
 /// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.
@@ -65,6 +67,7 @@ struct PathSettings {
   std::optional<AnimationPath> kind;  ///< none: not an animation
   std::optional<double> degrees;      ///< angle from the first frame to the last; none: 60
   std::optional<glm::dvec3> axis;     ///< of the rotation, unit, in world space; none: the camera's up
+  std::optional<double> until;        ///< seconds of an animation at its last frame; none: its last key
 };
 
 /// The view of the scene.

@@ -57,9 +57,7 @@ struct Workbench {
   std::optional<GpuCosts> gpu_costs{};
 };
 
-Scene scene_of(const RunSettings& settings) {
-  return scene_for_path(settings, load_scene(settings.scene, settings.scene_library, settings.overrides));
-}
+Scene scene_of(const RunSettings& settings) { return scene_for_path(settings, scene_of_run(settings)); }
 
 // A run's inputs, and its workbench once something is rendered.
 struct Job {
@@ -404,7 +402,7 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
 std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& scene) {
   if (!is_animation(settings)) return {};
   AnimationWay way{.path = std::string(word_for(animation_paths, *settings.path.kind)), .axis = {}};
-  if (settings.path.kind == AnimationPath::zoom) return way;
+  if (settings.path.kind != AnimationPath::orbit && settings.path.kind != AnimationPath::light) return way;
   const glm::dvec3 axis = turning_axis(settings.path, scene);
   way.axis = {axis.x, axis.y, axis.z};
   return way;

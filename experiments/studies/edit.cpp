@@ -10,6 +10,7 @@
 #include <memory>
 #include <utility>
 
+#include "experiments/studies/brdf_edit.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
@@ -26,14 +27,22 @@
 namespace footprint {
 namespace {
 
-const OptionSpec& spec_of(const PatchKind& kind, const std::string& parameter, const std::string& place) {
+const std::vector<OptionSpec>& parameters_of(const std::string& kind) {
+  return kind == brdf_kind ? brdf_parameters() : find_patch_kind(kind).parameters;
+}
+
+const OptionSpec& spec_of(const std::string& kind, const std::string& parameter, const std::string& place) {
   std::vector<std::string> names;
-  for (const OptionSpec& spec : kind.parameters) {
+  for (const OptionSpec& spec : parameters_of(kind)) {
     if (spec.name == parameter) return spec;
     names.push_back(spec.name);
   }
-  throw Error(ErrorKind::usage, place, fmt::format("{} has no parameter `{:.80}`", kind.name, parameter),
+  throw Error(ErrorKind::usage, place, fmt::format("{} has no parameter `{:.80}`", kind, parameter),
               names.empty() ? "it has none" : suggestion(parameter, names));
+}
+
+bool is_measured(const ParameterSweep& sweep) {
+  return sweep.kind == brdf_kind && sweep.parameter == measured_parameter;
 }
 
 bool is_word(const OptionSpec& spec) { return !spec.choices.empty(); }
@@ -45,21 +54,36 @@ double seconds_of(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// The kind of small-scale geometry that changes; `brdf` if none does.
+std::string edited_kind(std::span<const ParameterSweep> sweeps) {
+  for (const ParameterSweep& sweep : sweeps) {
+    if (sweep.kind != brdf_kind) return sweep.kind;
+  }
+  return brdf_kind;
+}
+
+std::optional<MeasuredPair> measured_pair(std::span<const ParameterSweep> sweeps) {
+  const auto found = std::ranges::find_if(sweeps, is_measured);
+  if (found == sweeps.end()) return {};
+  return MeasuredPair{read_merl(found->from), read_merl(found->to)};
+}
+
 // The parts whose patch the sweeps change; the others stay as they are.
 SceneSource editable_source(const EditSettings& settings) {
   SceneSource source = read_scene(settings.run.scene, settings.run.scene_library, settings.run.overrides);
+  const std::string edited = edited_kind(settings.sweeps);
   const PatchKind* kind = nullptr;
   for (const PartSettings& part : source.settings.parts) {
     for (const MicrogeometrySettings& patch : part.microgeometry) {
-      const bool wanted = kind != nullptr && kind->name == settings.sweeps.front().kind;
+      const bool wanted = kind != nullptr && kind->name == edited;
       if (patch.kind != nullptr && !wanted) kind = patch.kind;
     }
   }
-  if (kind == nullptr) {
+  if (kind == nullptr && edited != brdf_kind) {
     throw Error(ErrorKind::usage, settings.run.scene, "has no generated small-scale geometry to edit",
-                "take a scene with [microgeometry] and a kind in its scene.toml");
+                "take a scene with [microgeometry] and a kind in its scene.toml, or set brdf.PARAMETER");
   }
-  check_sweeps(settings.sweeps, *kind);
+  check_sweeps(settings.sweeps, kind);
   return source;
 }
 
@@ -136,6 +160,8 @@ class Editor {
       : settings_(settings),
         folder_(std::move(folder)),
         source_(editable_source(settings)),
+        edited_(edited_kind(settings.sweeps)),
+        tables_(measured_pair(settings.sweeps)),
         own_colors_(own_colors(source_)),
         scene_(assemble(source_)),
         patches_(patches_of(source_.settings, scene_)),
@@ -150,7 +176,7 @@ class Editor {
     for (int frame = 0; frame < settings_.frames; ++frame) add_frame(frame);
     run_.backend = backend_info(context_.info());
     run_.scene = scene_info(scene_, exposure_);
-    run_.kind = settings_.sweeps.front().kind;
+    run_.kind = edited_;
     run_.method = method().text;
     run_.width = size_.x;
     run_.height = size_.y;
@@ -163,13 +189,18 @@ class Editor {
   void add_frame(int frame) {
     const Progress progress = parts_.next(1, fmt::format("frame {} of {}: ", frame + 1, settings_.frames));
     EditRecord record{.frame = frame,
-                      .parameters = values_at(settings_.sweeps, frame, settings_.frames),
+                      .parameters = values_at(settings_.sweeps, edited_, frame, settings_.frames),
                       .stages = {},
                       .bytes = 0,
                       .notes = {},
                       .image = {}};
     progress("geometry", 0.0);
-    record.stages.push_back({"geometry", seconds_of([&] { change_geometry(record.parameters); })});
+    if (edited_ != brdf_kind)
+      record.stages.push_back({"geometry", seconds_of([&] { change_geometry(record.parameters); })});
+    const auto brdf = values_at(settings_.sweeps, brdf_kind, frame, settings_.frames);
+    if (!brdf.empty())
+      record.stages.push_back({"BRDF", seconds_of([&] { set_brdf(brdf, tables_ ? &*tables_ : nullptr, scene_); })});
+    record.parameters.insert(brdf.begin(), brdf.end());
     const EffectSet effects = effects_on(derive_effects(scene_));
     if (!drawing_) scene_ = refined_for_visibility(std::move(scene_), effects);
     BakedMethod baked = timed_bake(effects, record.stages, progress);
@@ -186,7 +217,7 @@ class Editor {
   void change_geometry(const std::map<std::string, std::string>& parameters) {
     for (const EditedPatch& patch : patches_) {
       MicrogeometrySettings& geometry = source_.settings.parts[patch.part].microgeometry[patch.index];
-      if (geometry.kind == nullptr || geometry.kind->name != settings_.sweeps.front().kind) continue;
+      if (geometry.kind == nullptr || geometry.kind->name != edited_) continue;
       for (const auto& [name, value] : parameters) geometry.parameters[name] = value;
       const MicrogeometryContent content = load_microgeometry(geometry);
       for (const std::size_t i : patch.materials) {
@@ -200,7 +231,9 @@ class Editor {
   BakedMethod timed_bake(const EffectSet& effects, std::vector<StageTime>& stages, const Progress& progress) const {
     StageClock clock;
     const Progress report = clock.callback(progress);
-    BakedMethod baked = bake(find_method(method().name), method(), scene_, effects, report);
+    BakedMethod baked = edited_ == brdf_kind && drawing_ && drawing_->effects == effects
+                            ? bake_after_brdf(*drawing_->baked, scene_, effects, report)
+                            : bake(find_method(method().name), method(), scene_, effects, report);
     clock.stop();
     double other = baked.seconds;
     for (const StageTime& time : clock.times()) {
@@ -238,6 +271,8 @@ class Editor {
   const EditSettings& settings_;
   std::filesystem::path folder_;
   SceneSource source_;
+  std::string edited_;
+  std::optional<MeasuredPair> tables_;
   std::vector<glm::vec4> own_colors_;
   Scene scene_;
   std::vector<EditedPatch> patches_;
@@ -263,10 +298,10 @@ ParameterSweep parse_sweep(const std::string& text) {
   sweep.from = values.substr(0, colon);
   sweep.to = colon == std::string::npos ? sweep.from : values.substr(colon + 1);
   try {
-    const PatchKind& kind = find_patch_kind(sweep.kind);
-    const OptionSpec& spec = spec_of(kind, sweep.parameter, "");
+    const OptionSpec& spec = spec_of(sweep.kind, sweep.parameter, "");
+    if (is_measured(sweep)) return sweep;
     for (const std::string& value : {sweep.from, sweep.to}) {
-      const Options checked(kind.parameters, {{sweep.parameter, value}}, "microgeometry " + kind.name);
+      const Options checked(parameters_of(sweep.kind), {{sweep.parameter, value}}, sweep.kind);
     }
     if (is_word(spec) && sweep.from != sweep.to) {
       throw Error(ErrorKind::usage, "", "a word has nothing between its first value and its last", "give one of them");
@@ -277,12 +312,13 @@ ParameterSweep parse_sweep(const std::string& text) {
   return sweep;
 }
 
-void check_sweeps(std::span<const ParameterSweep> sweeps, const PatchKind& kind) {
+void check_sweeps(std::span<const ParameterSweep> sweeps, const PatchKind* kind) {
   for (const ParameterSweep& sweep : sweeps) {
     const std::string name = sweep.kind + "." + sweep.parameter;
-    if (sweep.kind != kind.name) {
-      throw Error(ErrorKind::usage, "--set " + name, fmt::format("the scene's small-scale geometry is {}", kind.name),
-                  fmt::format("set a parameter of {}", kind.name));
+    if (sweep.kind != brdf_kind && (kind == nullptr || sweep.kind != kind->name)) {
+      const std::string own = kind == nullptr ? "none" : kind->name;
+      throw Error(ErrorKind::usage, "--set " + name, fmt::format("the scene's small-scale geometry is {}", own),
+                  fmt::format("set a parameter of {}", kind == nullptr ? brdf_kind : own));
     }
     if (std::ranges::count(sweeps, sweep.parameter, &ParameterSweep::parameter) > 1) {
       throw Error(ErrorKind::usage, "--set " + name, "is given twice", "give it once, as FROM:TO");
@@ -290,16 +326,18 @@ void check_sweeps(std::span<const ParameterSweep> sweeps, const PatchKind& kind)
   }
 }
 
-std::map<std::string, std::string> values_at(std::span<const ParameterSweep> sweeps, int frame, int frames) {
+std::map<std::string, std::string> values_at(std::span<const ParameterSweep> sweeps, const std::string& kind, int frame,
+                                             int frames) {
   std::map<std::string, std::string> values;
+  const double part = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.0;
   for (const ParameterSweep& sweep : sweeps) {
-    const OptionSpec& spec = spec_of(find_patch_kind(sweep.kind), sweep.parameter, "--set");
-    if (is_word(spec) || sweep.from == sweep.to) {
+    if (sweep.kind != kind) continue;
+    const OptionSpec& spec = spec_of(sweep.kind, sweep.parameter, "--set");
+    if (!is_measured(sweep) && (is_word(spec) || sweep.from == sweep.to)) {
       values[sweep.parameter] = sweep.from;
       continue;
     }
-    const double part = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.0;
-    const double value = std::lerp(std::stod(sweep.from), std::stod(sweep.to), part);
+    const double value = is_measured(sweep) ? part : std::lerp(std::stod(sweep.from), std::stod(sweep.to), part);
     values[sweep.parameter] = fmt::format("{}", spec.integer ? std::round(value) : value);
   }
   return values;

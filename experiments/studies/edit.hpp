@@ -15,7 +15,8 @@
 namespace footprint {
 
 /// A parameter that changes from frame to frame, as `--set KIND.PARAMETER=FROM:TO` writes it: from `from` in the first
-/// frame to `to` in the last; words are the same in both.
+/// frame to `to` in the last; words are the same in both. Kind `brdf` is the base BRDF, others are small-scale
+/// geometry.
 struct ParameterSweep {
   std::string kind, parameter;
   std::string from, to;
@@ -25,12 +26,14 @@ struct ParameterSweep {
 /// form, an unknown kind or parameter with the nearest right one, a value that the parameter does not take.
 [[nodiscard]] ParameterSweep parse_sweep(const std::string& text);
 
-/// Errors (usage): a sweep of another kind than `kind`, a parameter set twice.
-void check_sweeps(std::span<const ParameterSweep> sweeps, const PatchKind& kind);
+/// Errors (usage): a sweep of another kind than `brdf` and `kind`, a parameter set twice.
+/// kind: of the scene's small-scale geometry; null: it has none.
+void check_sweeps(std::span<const ParameterSweep> sweeps, const PatchKind* kind);
 
-/// The values of the swept parameters in frame `frame` of `frames` >= 1, at equal steps; whole numbers are rounded.
-[[nodiscard]] std::map<std::string, std::string> values_at(std::span<const ParameterSweep> sweeps, int frame,
-                                                           int frames);
+/// The values of the parameters of one kind in frame `frame` of `frames` >= 1, at equal steps; whole numbers are
+/// rounded.
+[[nodiscard]] std::map<std::string, std::string> values_at(std::span<const ParameterSweep> sweeps,
+                                                           const std::string& kind, int frame, int frames);
 
 /// The settings of `footprint edit`.
 struct EditSettings {
@@ -42,8 +45,8 @@ struct EditSettings {
 /// Renders frame by frame and writes FOLDER/images/METHOD_NNNN, .exr and .png. Nothing is taken from a cache: a frame's
 /// times are those of its own work; the first frame is drawn once before it is timed, as programs are compiled when
 /// they are first used. The result lacks tool and backend.cpu, which the program knows. Errors: of scene, sweeps,
-/// method and settings (usage; also a scene without generated small-scale geometry), of the machine, an interrupt
-/// through `progress`.
+/// method and settings (usage; also a sweep over small-scale geometry that the scene does not generate), of the
+/// machine, an interrupt through `progress`.
 [[nodiscard]] EditRun run_edit(const EditSettings& settings, const std::filesystem::path& folder,
                                const Progress& progress);
 

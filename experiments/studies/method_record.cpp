@@ -166,6 +166,7 @@ Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView
   record.history = info_of(method.history());
   record.distance = target.at.distance;
   record.degrees = target.at.degrees;
+  record.seconds = target.at.seconds;
   record.frame = static_cast<int>(target.index);
   record.width = target.view.size.x;
   record.height = target.view.size.y;

@@ -38,11 +38,12 @@ void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene
   hash.add(fmt::format("{}x{}", pixels.x, pixels.y));
   const std::vector<RunView> all = run_views(settings, scene);
   for (const RunView& view : std::span(all).first(zoom.frames > 0 ? all.size() : 1))
-    hash.add(fmt::format("{} {}", view.distance, view.degrees));
+    hash.add(fmt::format("{} {} {}", view.distance, view.degrees, view.seconds));
   hash.add(exposure ? fmt::format("{} {}", exposure->factor, static_cast<int>(exposure->source)) : "default");
   hash.add(fmt::format("{} {}", zoom.frames, number_or(error_scale, "auto")));
-  const auto& [kind, degrees, axis] = settings.path;
-  hash.add(fmt::format("{} {}", kind ? static_cast<int>(*kind) : -1, number_or(degrees, "default")));
+  const auto& [kind, degrees, axis, until] = settings.path;
+  hash.add(fmt::format("{} {} {}", kind ? static_cast<int>(*kind) : -1, number_or(degrees, "default"),
+                       number_or(until, "default")));
   if (axis) hash.add(fmt::format("{} {} {}", axis->x, axis->y, axis->z));
 }
 

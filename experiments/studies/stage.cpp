@@ -172,6 +172,7 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
   const double upload = hides_environment(shared.effects) ? bakes : 1.0;
   ProgressParts parts(progress, upload + bakes);
   const Progress of_upload = parts.next(upload, "");
+  if (settings.path.kind == AnimationPath::animation) shapes_ = shared.scene.meshes;
   if (is_first) {
     shared.scene = refined_for_visibility(std::move(shared.scene), shared.effects);
     const std::optional<DiskCache> cache = cache_of(settings);
@@ -232,11 +233,30 @@ View Stage::view(double distance) const {
   return {.size = size_, .camera = camera_at_distance(scene(), distance), .seed = settings_.reference.seed};
 }
 
+void Stage::pose_at(double seconds) {
+  if (posed_at_ == seconds) return;
+  Scene posed = scene_at_time(settings_, seconds, scene().bounds);
+  const auto same_triangles = [](const Mesh& a, const Mesh& b) {
+    return a.indices == b.indices && a.vertices.size() == b.vertices.size();
+  };
+  if (!std::ranges::equal(posed.meshes, shapes_, same_triangles))
+    throw Error(ErrorKind::usage, posed.source,
+                fmt::format("at {:g} s its triangles differ from those of the first frame", seconds),
+                "give its meshes texture coordinates, normals and tangents");
+  posed = refined_for_visibility(std::move(posed), effects(), shapes_);
+  prepared_->scene.meshes = std::move(posed.meshes);
+  prepared_->scene.lights = std::move(posed.lights);
+  prepared_->scene.camera = posed.camera;
+  prepared_->gpu->update(scene());
+  posed_at_ = seconds;
+}
+
 View Stage::move_to(const RunView& view) {
   if (settings_.path.kind == AnimationPath::light) {
     prepared_->scene.lights = lights_on_path(settings_.path, scene(), lights_, view);
     prepared_->gpu->update(scene());
   }
+  if (settings_.path.kind == AnimationPath::animation) pose_at(view.seconds);
   return {.size = size_,
           .camera = camera_on_path(settings_.path, scene(), view),
           .seed = settings_.reference.seed,

@@ -148,7 +148,8 @@ class Stage {
   [[nodiscard]] const Supersampler& reference() const { return *reference_; }
   [[nodiscard]] View view(double distance) const;
 
-  /// Moves the lights to where they are in a view, shadows included, and returns the camera of that view.
+  /// Moves the lights to where they are in a view, and what an animation moves, shadows included, and returns the
+  /// camera of that view. Errors: as scene_at_time and GpuScene::update.
   [[nodiscard]] View move_to(const RunView& view);
 
   /// Another method over the same scene.
@@ -173,10 +174,13 @@ class Stage {
  private:
   [[nodiscard]] std::vector<StagedFrames> wanted_methods(Unit unit);
   [[nodiscard]] StagedMethod staged(const StagedFrames& method, const Progress& progress);
+  void pose_at(double seconds);
 
   std::shared_ptr<PreparedScene> prepared_;
   RunSettings settings_;
-  std::vector<Light> lights_;  // of the first view
+  std::vector<Light> lights_;   // of the first view
+  std::vector<Mesh> shapes_{};  // of an animation: the meshes of the first view, not refined
+  std::optional<double> posed_at_{};
   glm::ivec2 size_;
   std::vector<StagedMethod> methods_;
   std::optional<std::size_t> unit_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "renderer/image/metrics.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/shadow_scenes.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -80,6 +81,45 @@ TEST(Stage, TakesFromAPreparedSceneWhatAnotherStageBakedAndDrawsTheSame) {
   for (const std::size_t method : {0U, 1U})
     EXPECT_EQ(&second.methods()[method].baked(), &first.methods()[method].baked());
   EXPECT_EQ(shared, pictures(Stage(scene(), settings, no_progress)));
+}
+
+// A leaf that turns about the edge of a quad, under the supplied lights and the environment that it hides a part of.
+std::string turning_leaf() {
+  test::GltfBuilder file = test::make_quad();
+  const int input = file.add_floats({0, 2}, "SCALAR");
+  const int output = file.add_floats({0, 0, 0, 1, 0, 0.5F, 0, 0.8660254F}, "VEC4");
+  file.json["nodes"].push_back({{"mesh", 0}, {"translation", {-1, 0, 0.3}}, {"children", {2}}});
+  file.json["nodes"].push_back({{"mesh", 0}, {"translation", {1, 0, 0.2}}});
+  file.json["scenes"] = {{{"nodes", {0, 1}}}};
+  file.json["scene"] = 0;
+  file.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}}}},
+                              {"samplers", {{{"input", input}, {"output", output}}}}}};
+  return file.write().string();
+}
+
+TEST(Stage, AFrameOfAnAnimationIsThatOfTheScenePosedAtItsTime) {
+  RunSettings settings;
+  settings.scene = turning_leaf();
+  settings.methods = parse_methods("direct");
+  settings.view.size = {24, 24};
+  settings.view.zoom.frames = 3;
+  settings.path.kind = AnimationPath::animation;
+  settings.cache.reset();
+  const Scene scene = scene_of_run(settings);
+  const std::vector<RunView> views = run_views(settings, scene);
+  const auto moved = [&](const std::vector<std::size_t>& frames) {
+    Stage stage(scene, settings, no_progress);
+    View view;
+    for (const std::size_t frame : frames) view = stage.move_to(views[frame]);
+    return stage.methods().front().frames().render(view).texels;
+  };
+  const auto posed = [&](double seconds) {
+    const Stage stage(scene_at_time(settings, seconds, scene.bounds), settings, no_progress);
+    return stage.methods().front().frames().render(stage.view(1.0)).texels;
+  };
+  const std::vector<float> first = posed(0.0);
+  EXPECT_EQ(moved({2, 0}), first);
+  EXPECT_NE(posed(2.0), first);
 }
 
 // An image that is not finite, or memory that is not there, is the method's own failure; an interrupt is not.

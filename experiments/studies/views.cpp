@@ -34,11 +34,25 @@ constexpr double default_turn = 60.0;  // degrees
 void require_settings_of_its_own(const RunSettings& settings) {
   if (!is_animation(settings)) return;
   const bool zooms = settings.path.kind == AnimationPath::zoom;
-  if (zooms && settings.path.degrees) refuse("--degrees", "nothing turns in a zoom");
-  if (zooms && settings.path.axis) refuse("--axis", "nothing turns in a zoom");
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  if ((zooms || plays) && settings.path.degrees) refuse("--degrees", "this path does not turn");
+  if ((zooms || plays) && settings.path.axis) refuse("--axis", "this path does not turn");
+  if (!plays && settings.path.until) refuse("--until", "this path follows no animation");
   if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
   if (!zooms && settings.view.zoom.from) refuse("--from", "this path is not a zoom");
   if (!zooms && settings.view.zoom.to) refuse("--to", "this path is not a zoom");
+}
+
+double first_time(const RunSettings& settings) { return settings.overrides.model.time.value_or(0.0); }
+
+// At equal times from --time to --until.
+void set_times(const RunSettings& settings, const Scene& scene, std::vector<RunView>& views) {
+  const double from = first_time(settings);
+  const double until = settings.path.until.value_or(scene.motion ? scene.motion->last_key : from);
+  if (from == until)
+    throw Error(ErrorKind::usage, "--until", fmt::format("the animation ends at {:g} s, where it starts", until),
+                "let --time and --until differ");
+  for (RunView& view : views) view.seconds = from + (until - from) * view.frame / static_cast<double>(views.size() - 1);
 }
 
 // The turn that a path has made in a frame, about the centre of the bounds.
@@ -130,8 +144,10 @@ std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) 
                 "take --path orbit");
   const int count = settings.view.zoom.frames;
   const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
-  const double turn = settings.path.degrees.value_or(default_turn);
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
   for (int i = 0; i < count; ++i) add(distance, turn * i / (count - 1));
+  if (plays) set_times(settings, scene, views);
   return views;
 }
 
@@ -162,6 +178,25 @@ std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, 
   std::vector<Light> turned;
   for (const Light& light : lights) turned.push_back(std::visit(Turned{turn}, light));
   return turned;
+}
+
+Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<Bounds>& bounds) {
+  SceneOverrides overrides = settings.overrides;
+  overrides.model.time = seconds;
+  overrides.bounds = bounds;
+  return load_scene(settings.scene, settings.scene_library, overrides);
+}
+
+Scene scene_of_run(const RunSettings& settings) {
+  if (settings.path.kind != AnimationPath::animation)
+    return load_scene(settings.scene, settings.scene_library, settings.overrides);
+  const Scene first = scene_at_time(settings, first_time(settings), {});
+  Bounds bounds = first.bounds;
+  for (const RunView& view : run_views(settings, first)) {
+    const Bounds own = scene_at_time(settings, view.seconds, {}).bounds;
+    bounds = {glm::min(bounds.lower, own.lower), glm::max(bounds.upper, own.upper)};
+  }
+  return scene_at_time(settings, first_time(settings), bounds);
 }
 
 Scene scene_for_path(const RunSettings& settings, Scene scene) {

@@ -25,6 +25,7 @@ namespace footprint {
 struct RunView {
   double distance = 1;      ///< factor on the camera's distance
   double degrees = 0;       ///< that camera or lights have turned by since the first view
+  double seconds = 0;       ///< time of the model file's animation, on a path that follows it
   std::uint32_t frame = 0;  ///< number on a path of several frames
 
   friend auto operator<=>(const RunView&, const RunView&) = default;
@@ -44,6 +45,15 @@ struct RunView {
 /// The file name part of something in a view: "d4_WHAT", or of an animation "WHAT_0002".
 [[nodiscard]] std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view,
                                     const std::string& what);
+
+/// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames.
+/// Errors: as load_scene.
+[[nodiscard]] Scene scene_of_run(const RunSettings& settings);
+
+/// The scene at a time of its animation.
+/// bounds: of all frames, by which cameras and lights without a place of their own are placed.
+/// Errors: as load_scene.
+[[nodiscard]] Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<Bounds>& bounds);
 
 /// The axis of a path, unit: the camera's up by default.
 [[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "renderer/core/error.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {
@@ -75,14 +77,51 @@ TEST(RunViews, AZoomIsThatOfAnExperiment) {
   EXPECT_EQ(lights_on_path(run.path, looked_at(), {}, frames[2]).size(), 0U);
 }
 
+// The quad moves by 6 m along x until 3 s.
+std::string moving_quad() {
+  test::GltfBuilder file = test::make_quad();
+  const int input = file.add_floats({0, 3}, "SCALAR"), output = file.add_floats({0, 0, 0, 6, 0, 0}, "VEC3");
+  file.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+                              {"samplers", {{{"input", input}, {"output", output}}}}}};
+  return file.write().string();
+}
+
+TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames) {
+  RunSettings run = path_of(AnimationPath::animation, 4);
+  run.scene = moving_quad();
+  const Scene scene = scene_of_run(run);
+  const std::vector<RunView> frames = run_views(run, scene);
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_EQ(frames[0].seconds, 0.0);
+  EXPECT_EQ(frames[1].seconds, 1.0);
+  EXPECT_EQ(frames[3].seconds, 3.0);
+  EXPECT_EQ(scene.bounds.lower.x, -1.0F);
+  EXPECT_EQ(scene.bounds.upper.x, 7.0F);
+  const Scene later = scene_at_time(run, 1.0, scene.bounds);
+  EXPECT_EQ(later.meshes.front().vertices.front().position.x, scene.meshes.front().vertices.front().position.x + 2.0F);
+  EXPECT_EQ(later.camera, scene.camera) << "framed on all frames";
+  run.overrides.model.time = 1.0;
+  run.path.until = 1.5;
+  const std::vector<RunView> part = run_views(run, scene_of_run(run));
+  EXPECT_EQ(part[0].seconds, 1.0);
+  EXPECT_EQ(part[3].seconds, 1.5);
+}
+
 TEST(RunViews, WhatAPathHasNoUseForIsRefused) {
   RunSettings zoom = path_of(AnimationPath::zoom, 2);
   zoom.path.degrees = 5;
-  EXPECT_NE(refusal(zoom, looked_at()).find("--degrees: nothing turns"), std::string::npos);
+  EXPECT_NE(refusal(zoom, looked_at()).find("--degrees: this path does not turn"), std::string::npos);
   RunSettings orbit = path_of(AnimationPath::orbit, 2);
   orbit.view.zoom.to = 5;
   EXPECT_NE(refusal(orbit, looked_at()).find("--to: this path is not a zoom"), std::string::npos);
   EXPECT_NE(refusal(path_of(AnimationPath::light, 2), looked_at()).find("no light to move"), std::string::npos);
+  RunSettings animation = path_of(AnimationPath::animation, 2);
+  EXPECT_NE(refusal(animation, looked_at()).find("--until: the animation ends at 0 s"), std::string::npos);
+  animation.path.axis = glm::dvec3(0, 0, 1);
+  EXPECT_NE(refusal(animation, looked_at()).find("--axis: this path does not turn"), std::string::npos);
+  orbit = path_of(AnimationPath::orbit, 2);
+  orbit.path.until = 2;
+  EXPECT_NE(refusal(orbit, looked_at()).find("--until: this path follows no animation"), std::string::npos);
 }
 
 // A plate before a plate: the light beside them casts no shadow until it has turned in front.

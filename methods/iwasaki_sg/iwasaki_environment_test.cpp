@@ -154,6 +154,54 @@ TEST(IwasakiUnderAnEnvironment, AmplitudesKeepTheirColours) {
   EXPECT_LT(found.b, 0.5 * found.r);
 }
 
+// A matte patch without a table, under an environment that its diffuse term has as Gaussians.
+Scene matte_scene(const char* kind, const glm::dvec3& wo, Environment environment) {
+  constexpr BaseBrdf matte{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, true};
+  Scene scene =
+      patch_scene(patch_of(kind), ward_brdf(glm::vec3(0.0F), glm::vec3(0.0F), 0.3), wo, std::move(environment));
+  scene.materials[0] = patch_material(patch_of(kind), matte, 40.0F);
+  scene.materials[0].dielectric_specular = glm::vec3(0.0F);
+  return scene;
+}
+
+glm::dvec3 drawn_with_gaussians(const Scene& scene) {
+  return mean_of(
+      TestRenderer(scene, {4, 4}).frame(iwasaki_sg_method(), "iwasaki_sg:facets=8192:environment=gaussians"));
+}
+
+TEST(IwasakiUnderAnEnvironment, AGaussianOfLightIsALightFromItsAxis) {
+  const glm::dvec3 from = glm::normalize(glm::dvec3(0.5, 0.3, 1.0));
+  constexpr double sharpness = 100.0;
+  Image map(256, 128, 3);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const glm::dvec3 d =
+          environment_direction({.name = "", .radiance = nullptr}, (x + 0.5) / 256.0, (y + 0.5) / 128.0);
+      for (float& channel : map.at(x, y))
+        channel = static_cast<float>(10.0 * std::exp(sharpness * (glm::dot(d, from) - 1.0)));
+    }
+  }
+  const Environment light{.name = "one", .radiance = std::make_shared<const Image>(std::move(map))};
+  for (const char* kind : {"flat", "grooves"}) {
+    const Scene scene = matte_scene(kind, oblique, light);
+    Scene directional = scene;
+    directional.environment.reset();
+    directional.lights = {DirectionalLight{.direction = -glm::vec3(from),
+                                           .illuminance = glm::vec3(static_cast<float>(10.0 * 2.0 * pi / sharpness))}};
+    expect_near(drawn_with_gaussians(scene), drawn(directional), 0.02);
+  }
+}
+
+// A wide Gaussian counts with the cosine of its axis, so light from all sides is 12% too dark.
+TEST(IwasakiUnderAnEnvironment, NineGaussiansAreNearTheReference) {
+  for (const auto& [kind, wo] : {std::pair("flat", above), std::pair("grooves", oblique)}) {
+    const Scene scene = matte_scene(kind, wo, uneven_environment());
+    const glm::dvec3 truth = mean_of(TestRenderer(scene, {8, 8}).reference(256).mean);
+    expect_near(drawn_with_gaussians(scene), truth, 0.13);
+    expect_near(drawn(scene), truth, 0.05);
+  }
+}
+
 // What other parts of a scene call for compiles their terms in: here the diffuse term of a table.
 TEST(IwasakiUnderAnEnvironment, ATableElsewhereInTheSceneChangesNothing) {
   constexpr BaseBrdf shine{NormalDistribution::blinn_phong, GeometryTerm::none, FresnelTerm::none, false};

@@ -2,6 +2,7 @@
 // them with the base BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
 #include <string>
 
+#include "methods/iwasaki_sg/environment_gaussians.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/bake/method.hpp"
@@ -13,6 +14,17 @@ extern const EmbeddedTexts iwasaki_sg_glsl;
 namespace {
 
 using namespace iwasaki_sg;
+
+// The Gaussians come first, so that a bake after an edit of the BRDF has the textures in the same order.
+Prefiltered baked_in_scene(const Scene& scene, std::size_t material, const Options& options, const EffectSet& effects,
+                           const Progress& progress) {
+  Prefiltered out = baked_material(scene.materials.at(material), options, effects, progress);
+  if (options.word("environment") == "gaussians" && has(effects, Effect::environment_light) &&
+      has(effects, Effect::diffuse) && !has(effects, Effect::tabulated_brdf))
+    out.textures.insert(out.textures.begin(),
+                        environment_texture(scene.environment.value_or(constant_environment(glm::vec3(0.0F)))));
+  return out;
+}
 
 }  // namespace
 
@@ -27,9 +39,12 @@ const Method& iwasaki_sg_method() {
                .options = option_table(),
                .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                .lobes_as_given = true,
+               .sums_environment = true,
                .resolves_texels = false},
       .precompute = baked_material,
       .shader = module_of(iwasaki_sg_glsl, "iwasaki_sg.glsl"),
+      .precompute_on = baked_in_scene,
+      .precompute_brdf = with_other_brdf,
       .lobe_count = [](const Options& options) { return static_cast<int>(options.number("j")); }};
   return method;
 }

@@ -113,3 +113,41 @@ vec3 meanNormal(Effective e) {
   return sum;
 }
 //? end
+
+//? if environment_summed
+vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environment_stack.glsl
+//? if environment_gaussians and diffuse and not tabulated_brdf
+vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame);
+//? if environment_visibility
+float visibleElevation(vec3 direction, float elevation);
+//? end
+
+// The diffuse term under Gaussians of light, each from its axis (after equation 16). What is visible of one is the share
+// of a Gaussian beyond the nearest edge, as far as that is from the axis (Wang et al. 2009); the horizon is an edge too.
+vec3 gaussianDiffuse(Effective e, Surface s, vec3 wo, mat3 frame) {
+  vec3 sum = vec3(0.0);
+  int count = textureSize(iwasaki_environment, 0).x;
+  int k = 0;
+  do {
+    countLookups(2);
+    vec4 gaussian = texelFetch(iwasaki_environment, ivec2(k, 0), 0);
+    vec3 light = texelFetch(iwasaki_environment, ivec2(k, 1), 0).rgb;
+    vec3 wi = gaussian.xyz * frame;
+    if (wi.z <= 0.0) continue;
+    float height = wi.z;
+//? if environment_visibility
+    height = visibleElevation(gaussian.xyz, height);
+//? end
+    float visible = normalCdf(asin(clamp(height, -1.0, 1.0)) * sqrt(gaussian.w));
+    sum += visible * light * meanDiffuse(e, s, wi, wo);
+  } while (++k < count);
+  return sum;
+}
+
+vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) {
+  return environmentSpecular(e, s.f0, wo, frame) + gaussianDiffuse(e, s, wo, frame);
+}
+//? else
+vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return environmentLit(e, s, wo, frame); }
+//? end
+//? end

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "methods/iwasaki_sg/material_table.hpp"
+#include "methods/iwasaki_sg/table_textures.hpp"
+#include "renderer/bake/baked_method.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/pipeline/base_surface.hpp"
@@ -102,6 +104,25 @@ TEST(IwasakiSg, IsTheSumOverVisibleFacetsForFlatOnes) {
   const Compared sg = against_sum(patch, 50.0F, {{"lobe", "sg"}, {"convolution", "exact"}});
   EXPECT_LT(sg.specular, 0.03);  // Blinn-Phong's lobe as one spherical Gaussian
   EXPECT_NEAR(against_sum(patch, 50.0F, {{"lobe", "sg"}}).specular, sg.specular, 0.005);
+}
+
+TEST(IwasakiSg, MakesOnlyTheLobesOfTheBrdfAgainWhenItChanges) {
+  const Options options =
+      options_of(iwasaki_sg_method(), parse_methods("iwasaki_sg:lobe=sg:facets=1024:directions=4").front());
+  Material material = patch_material(patch_of("weave", {}), blinn_phong, 50.0F);
+  const Prefiltered before = baked_material(material, options, effects_of(material), no_progress);
+  material.lobe_parameter = 10.0F;
+  const Prefiltered again = with_other_brdf(before, material, options, effects_of(material));
+  const Prefiltered wanted = baked_material(material, options, effects_of(material), no_progress);
+  ASSERT_EQ(again.textures.size(), wanted.textures.size());
+  bool changed = false;
+  for (std::size_t i = 0; i < wanted.textures.size(); ++i) {
+    EXPECT_EQ(again.textures[i].name, wanted.textures[i].name);
+    EXPECT_EQ(texel_content(again.textures[i]), texel_content(wanted.textures[i])) << wanted.textures[i].name;
+    changed = changed || texel_content(before.textures[i]) != texel_content(wanted.textures[i]);
+  }
+  EXPECT_TRUE(changed);
+  EXPECT_EQ(again.notes, wanted.notes);
 }
 
 // Curved threads of two colours.

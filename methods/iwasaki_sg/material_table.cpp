@@ -36,23 +36,27 @@ std::vector<double> shares_from_above(const Amplitudes& table, int side) {
 }  // namespace
 
 std::vector<OptionSpec> option_table() {
-  return {whole_option("j", 7, 1, most_lobes,
-                       "Most spherical Gaussians of the normal distribution; 3 and 7 fill texels of four with the "
-                       "diffuse term."),
-          whole_option("directions", 12, 2, 32, "Side of the grid of incident and outgoing directions."),
-          whole_option("facets", 65536, 64, 1 << 24, "Samples of the patch."),
-          word_option("lobe", {"base", "sg"},
-                      "What a lobe of normals reflects with: the scene's base lobe, widened by that of the normals, or "
-                      "the paper's spherical Gaussians, one or several fitted to the base lobe."),
-          word_option("convolution", {"approximate", "exact"},
-                      "lobe=sg: the convolution of two spherical Gaussians as one (Eq. 14), or exactly (Eq. 11)."),
-          word_option("cosines", {"base", "published"},
-                      "What facets weigh in the specular term: (n.wo), with the base BRDF's own cosine and geometry "
-                      "term, or the paper's (n.wi)(n.wo) without a geometry term."),
-          word_option("energy", {"conserved", "published", "any_sign"},
-                      "Whether the amplitudes are scaled to the energy of the visible facets; least squares, as in the "
-                      "paper, do not conserve it, and without a bound amplitudes may be below 0."),
-          word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
+  return {
+      whole_option("j", 7, 1, most_lobes,
+                   "Most spherical Gaussians of the normal distribution; 3 and 7 fill texels of four with the "
+                   "diffuse term."),
+      whole_option("directions", 12, 2, 32, "Side of the grid of incident and outgoing directions."),
+      whole_option("facets", 65536, 64, 1 << 24, "Samples of the patch."),
+      word_option("lobe", {"base", "sg"},
+                  "What a lobe of normals reflects with: the scene's base lobe, widened by that of the normals, or "
+                  "the paper's spherical Gaussians, one or several fitted to the base lobe."),
+      word_option("convolution", {"approximate", "exact"},
+                  "lobe=sg: the convolution of two spherical Gaussians as one (Eq. 14), or exactly (Eq. 11)."),
+      word_option("cosines", {"base", "published"},
+                  "What facets weigh in the specular term: (n.wo), with the base BRDF's own cosine and geometry "
+                  "term, or the paper's (n.wi)(n.wo) without a geometry term."),
+      word_option("energy", {"conserved", "published", "any_sign"},
+                  "Whether the amplitudes are scaled to the energy of the visible facets; least squares, as in the "
+                  "paper, do not conserve it, and without a bound amplitudes may be below 0."),
+      word_option("environment", {"irradiance", "gaussians"},
+                  "What the diffuse term receives from an environment: its prefiltered irradiance, or the paper's nine "
+                  "spherical Gaussians fitted to it. Tabulated BRDFs have the first."),
+      word_option("storage", {"fp32", "fp16"}, "How the amplitudes are stored: 32-bit or 16-bit floats.")};
 }
 
 bool is_tabulated(const Material& material) { return material.microgeometry && material.microgeometry->brdf; }

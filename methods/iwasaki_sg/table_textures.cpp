@@ -151,6 +151,21 @@ std::vector<std::string> notes_of(const Material& material, const MaterialTable&
 
 }  // namespace
 
+namespace {
+
+bool depends_on_brdf(const PrefilteredTexture& texture) {
+  return texture.name == "iwasaki_brdf" || texture.name == "iwasaki_table" || texture.name == "iwasaki_rise";
+}
+
+void add_brdf_textures(const Material& material, const Options& options, const EffectSet& effects, Prefiltered& out) {
+  if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
+  if (!has(effects, Effect::tabulated_brdf)) return;
+  append(out.textures, table_textures(material));
+  out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
+}
+
+}  // namespace
+
 Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
                            const Progress& progress) {
   const bool seen = has(effects, Effect::microgeometry_visibility);
@@ -170,11 +185,15 @@ Prefiltered baked_material(const Material& material, const Options& options, con
     }
     out.notes = notes_of(material, table);
   }
-  if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
-  if (has(effects, Effect::tabulated_brdf)) {
-    append(out.textures, table_textures(material));
-    out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
-  }
+  add_brdf_textures(material, options, effects, out);
+  return out;
+}
+
+Prefiltered with_other_brdf(const Prefiltered& before, const Material& material, const Options& options,
+                            const EffectSet& effects) {
+  Prefiltered out = before;
+  std::erase_if(out.textures, depends_on_brdf);
+  add_brdf_textures(material, options, effects, out);
   return out;
 }
 

@@ -57,6 +57,34 @@ TEST(CameraSpace, LeavesOutWhatFacesAwayAndTurnsTwoSidedSurfacesRound) {
   }
 }
 
+// The camera is at (0, 0, 3): of a square that is turned by 60 degrees, normals beyond 30 degrees face away on one
+// side.
+TEST(CameraSpace, LeavesOutNormalsThatFaceAwayIfAsked) {
+  const double degrees = 60.0;
+  const Scene scene = turned_square(degrees);
+  const Image all = BuiltMap(scene, camera_space).level("xu_vmf_whole", 0);
+  const Image culled = BuiltMap(scene, {{"space", "camera"}, {"culling", "normals"}}).level("xu_vmf_whole", 0);
+  int left_out = 0;
+  for (int y = 0; y < all.height; ++y) {
+    for (int x = 0; x < all.width; ++x) {
+      const glm::vec2 on_plane{(static_cast<float>(x) + 0.5F) / static_cast<float>(all.width) - 0.5F,
+                               0.5F - (static_cast<float>(y) + 0.5F) / static_cast<float>(all.height)};
+      const glm::vec3 place = glm::mat3(turn(degrees, {0, 1, 0})) * glm::vec3(2.0F * on_plane, 0.0F);
+      const glm::vec3 to_viewer = glm::vec3(scene.camera.world[3]) - place;
+      const float facing = glm::dot(glm::normalize(direction(all, x, y)), glm::normalize(to_viewer));
+      if (std::abs(facing) < 1e-3F) continue;
+      EXPECT_EQ(culled.at(x, y)[3], facing > 0.0F ? 1.0F : 0.0F) << x << ", " << y;
+      if (facing < 0.0F) {
+        ++left_out;
+      } else {
+        EXPECT_EQ(direction(culled, x, y), direction(all, x, y));
+      }
+    }
+  }
+  EXPECT_GT(left_out, 3);
+  EXPECT_LT(left_out, all.width * all.height / 2);
+}
+
 // Two planes under one flat map: the second is turned, and looks up the same texels.
 Scene two_planes(double degrees = 60) {
   Scene scene = blinn_phong_square(constant_normals(24, 24, {0, 0, 1}), 100);

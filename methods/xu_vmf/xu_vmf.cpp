@@ -31,6 +31,9 @@ std::vector<OptionSpec> option_table() {
           word_option("space", {"tangent", "camera"},
                       "Where lobes are joined: in the frame of the normal map, once for all places that show it, or in "
                       "camera space, where the mesh's curvature is filtered too and what faces away is left out."),
+          word_option(
+              "culling", {"triangles", "normals"},
+              "What space=camera leaves out: texels of triangles that face away, or also those whose own normal does."),
           word_option("partition", {"azimuth", "latitude"},
                       "How the hemisphere is cut: 4 sectors, each in 2 rings, or 4 rings, each in 2 halves."),
           word_option("variant", {"corrected", "published"},

@@ -100,7 +100,11 @@ void main() {
 //? if camera
   bool front = facesViewer();
   if (!front && !two_sided) return;
-  axis = world_to_camera * (tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis);
+  axis = tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis;
+//? if culling_normals
+  if (dot(axis, viewer.xyz - viewer.w * world_position) <= 0.0) return;
+//? end
+  axis = world_to_camera * axis;
 //? end
   float weight = 1.0;
 //? if specular_joint and specular_variation

@@ -50,6 +50,13 @@ Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, c
   return outcome;
 }
 
+// Bakes one material after its base BRDF changed.
+Outcome prefilter_brdf(const Method& method, const Scene& scene, std::size_t index, const Options& options,
+                       const EffectSet& effects, const Progress& progress, const BakedMethod& before) {
+  if (!method.precompute_brdf) return {precomputed(method, scene, index, options, effects, progress), false};
+  return {method.precompute_brdf(before.materials.at(index), scene.materials.at(index), options, effects), false};
+}
+
 // Finds the textures of the last material that an earlier one has; `known` are the texels so far. Textures of a frame
 // build are never shared.
 void find_shared(BakedMethod& baked, std::set<std::uint64_t>& known) {
@@ -103,7 +110,7 @@ BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
 }
 
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
-                    const BakeCache* cache, const MaterialBaked& when_baked) {
+                    const BakeCache* cache, const MaterialBaked& when_baked, const BakedMethod* before) {
   const Method& method = *baked.method;
   baked.cached = cache != nullptr && method.info.slow_precompute;
   const auto count = static_cast<double>(scene.materials.size());
@@ -115,9 +122,11 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     const Progress part = [&](std::string_view what, double fraction) { progress(what, (done + fraction) / count); };
     part(fmt::format("{}: {}", baked.spec.text, material.name), 0.0);
     try {
-      auto [prefiltered, from_disk] =
-          prefilter(method, scene, i, baked.options, effects & method.info.honours, part, cache);
-      if (auto note = storage_range_note(material, method.info, baked.options, effects & method.info.honours))
+      const EffectSet honoured = effects & method.info.honours;
+      auto [prefiltered, from_disk] = before != nullptr
+                                          ? prefilter_brdf(method, scene, i, baked.options, honoured, part, *before)
+                                          : prefilter(method, scene, i, baked.options, honoured, part, cache);
+      if (auto note = storage_range_note(material, method.info, baked.options, honoured))
         prefiltered.notes.push_back(*std::move(note));
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
@@ -136,6 +145,14 @@ BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scen
                  const Progress& progress, const BakeCache* cache) {
   BakedMethod baked = make_bake(method, spec);
   bake_materials(baked, scene, effects, progress, cache, [](std::size_t) {});
+  return baked;
+}
+
+BakedMethod bake_after_brdf(const BakedMethod& before, const Scene& scene, const EffectSet& effects,
+                            const Progress& progress) {
+  BakedMethod baked = make_bake(*before.method, before.spec);
+  bake_materials(
+      baked, scene, effects, progress, nullptr, [](std::size_t) {}, &before);
   return baked;
 }
 

@@ -46,13 +46,19 @@ using MaterialBaked = std::function<void(std::size_t)>;
 [[nodiscard]] BakedMethod make_bake(const Method& method, const MethodSpec& spec);
 
 /// Runs the precompute of `baked` for one material after the other, as `bake` does. `seconds` excludes `when_baked`.
+/// before: the bake of a scene that differs in the base BRDF alone, instead of `cache`; null: none.
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
-                    const BakeCache* cache, const MaterialBaked& when_baked);
+                    const BakeCache* cache, const MaterialBaked& when_baked, const BakedMethod* before = nullptr);
 
 /// Runs the precompute of `spec` for every material, or reads it from the cache.
 /// effects: the scene's; the method gets those that it honours.
 /// cache: may be null.
 [[nodiscard]] BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene,
                                const EffectSet& effects, const Progress& progress, const BakeCache* cache = nullptr);
+
+/// Bakes a method again after the base BRDF of its materials changed: only what depends on it
+/// (Method::precompute_brdf). before: the bake with the BRDF before, of the same effects.
+[[nodiscard]] BakedMethod bake_after_brdf(const BakedMethod& before, const Scene& scene, const EffectSet& effects,
+                                          const Progress& progress);
 
 }  // namespace footprint

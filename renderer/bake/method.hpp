@@ -116,6 +116,13 @@ struct Method {
                             const Progress& progress)>
       precompute_on = {};
 
+  /// Bakes a material again after its base BRDF changed: its parameters or its table, not its maps. The result is that
+  /// of `precompute`, which is used if it is empty. before: the bake with the BRDF before, of equal options and
+  /// effects.
+  std::function<Prefiltered(const Prefiltered& before, const Material& material, const Options& options,
+                            const EffectSet& effects)>
+      precompute_brdf = {};
+
   /// The passes that are repeated each frame; null if there are none. A context is current.
   /// variant: effects that the method honours, and base BRDF, of the scene.
   /// Throws Error (machine): a pass does not compile.

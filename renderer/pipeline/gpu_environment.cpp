@@ -112,10 +112,11 @@ bool hides_environment(const EffectSet& effects) {
   return has(effects, Effect::environment_light) && has(effects, Effect::cast_shadow);
 }
 
-Scene refined_for_visibility(Scene scene, const EffectSet& effects) {
+Scene refined_for_visibility(Scene scene, const EffectSet& effects, std::span<const Mesh> shapes) {
   const float longest = scene.bounds.radius() / visibility_edges_in_radius;
   if (!hides_environment(effects) || !(longest > 0.0F)) return scene;
-  for (Mesh& mesh : scene.meshes) mesh = subdivided(mesh, longest);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    scene.meshes[i] = subdivided(scene.meshes[i], longest, shapes.empty() ? nullptr : &shapes[i]);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/core/progress.hpp"
@@ -62,7 +63,8 @@ class GpuEnvironment {
 
 /// The scene with mesh edges no longer than 1/24 of the bounds' radius, if its effects need visibility at vertices;
 /// otherwise unchanged. Everything that reads vertices must use the result.
-[[nodiscard]] Scene refined_for_visibility(Scene scene, const EffectSet& effects);
+/// shapes: the meshes of another pose, whose edges are measured instead (subdivided); empty: its own.
+[[nodiscard]] Scene refined_for_visibility(Scene scene, const EffectSet& effects, std::span<const Mesh> shapes = {});
 
 /// The maps of a visibility field's components, and the vertices' weights. The context that created it must be current,
 /// also at destruction.

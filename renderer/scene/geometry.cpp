@@ -110,7 +110,9 @@ Vertex middle(const Vertex& a, const Vertex& b) {
 
 class Splitter {
  public:
-  Splitter(std::vector<Vertex>& vertices, float longest) : vertices_(vertices), longest_(longest) {}
+  // measured: the places between which edges have their lengths, one per vertex.
+  Splitter(std::vector<Vertex>& vertices, std::vector<glm::vec3>& measured, float longest)
+      : vertices_(vertices), measured_(measured), longest_(longest) {}
 
   // Appends the parts of a triangle; gives whether there is more than one.
   bool split(const Triangle& t, std::vector<std::uint32_t>& parts) {
@@ -145,16 +147,20 @@ class Splitter {
   }
 
   [[nodiscard]] bool is_long(std::uint32_t a, std::uint32_t b) const {
-    return glm::distance(vertices_[a].position, vertices_[b].position) > longest_;
+    return glm::distance(measured_[a], measured_[b]) > longest_;
   }
 
   std::uint32_t between(std::uint32_t a, std::uint32_t b) {
     const auto [entry, is_new] = middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices_.size()));
-    if (is_new) vertices_.push_back(middle(vertices_[a], vertices_[b]));
+    if (is_new) {
+      vertices_.push_back(middle(vertices_[a], vertices_[b]));
+      measured_.push_back(0.5F * (measured_[a] + measured_[b]));
+    }
     return entry->second;
   }
 
   std::vector<Vertex>& vertices_;
+  std::vector<glm::vec3>& measured_;
   float longest_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
@@ -300,13 +306,15 @@ Mesh make_plane(glm::vec2 size, glm::vec2 uv_tiling) {
   return mesh;
 }
 
-Mesh subdivided(const Mesh& mesh, float longest) {
+Mesh subdivided(const Mesh& mesh, float longest, const Mesh* shape) {
   if (!(longest > 0.0F)) throw std::logic_error("edges cannot be made to have no length");
   Mesh out = mesh;
+  std::vector<glm::vec3> measured;
+  for (const Vertex& vertex : (shape != nullptr ? *shape : mesh).vertices) measured.push_back(vertex.position);
   bool any = true;
   while (any) {
     any = false;
-    Splitter splitter(out.vertices, longest);
+    Splitter splitter(out.vertices, measured, longest);
     std::vector<std::uint32_t> parts;
     for (std::size_t i = 0; i + 2 < out.indices.size(); i += 3) {
       any = splitter.split({out.indices[i], out.indices[i + 1], out.indices[i + 2]}, parts) || any;

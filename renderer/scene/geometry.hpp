@@ -60,7 +60,8 @@ void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>&
 /// Splits edges at their middle until none is longer than `longest` metres, which may be infinite. New vertices have
 /// the means of their edge's values, without normalising normals and tangents, so that interpolation is unchanged. The
 /// vertices of `mesh` come first, in order. Whether an edge is split depends only on its ends, so triangles still meet.
-/// Throws std::logic_error: `longest` is not above 0.
-[[nodiscard]] Mesh subdivided(const Mesh& mesh, float longest);
+/// shape: the same triangles in another pose, by whose edges `mesh` is split, so that poses have equal triangles; null:
+/// its own. Throws std::logic_error: `longest` is not above 0.
+[[nodiscard]] Mesh subdivided(const Mesh& mesh, float longest, const Mesh* shape = nullptr);
 
 }  // namespace footprint

@@ -164,6 +164,8 @@ class Counter {
     add_all(lower, upper);
   }
 
+  void add(const Motion& motion) { add_all(motion.last_key, motion.content); }
+
   void add(const FootprintFilter& filter) {
     const auto& [kind, count, depth] = filter;
     add_all(kind, count, depth);
@@ -171,9 +173,9 @@ class Counter {
 
   void add(const Scene& scene) {
     const auto& [name, source, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint,
-                 exposure, distances, frame_size, choices, defaults, warnings] = scene;
+                 exposure, distances, frame_size, choices, motion, defaults, warnings] = scene;
     add_all(name, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint, exposure);
-    add_all(distances, frame_size, defaults, warnings);
+    add_all(distances, frame_size, motion, defaults, warnings);
     for (const Material& material : materials) add(material.name);
   }
 

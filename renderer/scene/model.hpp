@@ -18,6 +18,7 @@ struct Model {
   std::vector<Light> lights;
   std::optional<Camera> camera;
   std::vector<ModelChoice> choices;
+  std::optional<Motion> motion;
   std::vector<std::string> warnings;
 };
 

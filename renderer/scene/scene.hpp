@@ -27,6 +27,12 @@ struct ModelSelection {
 /// The latest and the earliest time of an animation that can be given, seconds.
 inline constexpr double largest_seconds = 1e6;
 
+/// An animation of model files that poses them.
+struct Motion {
+  double last_key = 0;                  ///< seconds
+  std::uint64_t content = fnv1a_start;  ///< hash of all keys
+};
+
 /// The entries of one kind in a model file, and the selected one.
 struct ModelChoice {
   std::string kind;                  ///< "scene", "camera", "variant", "animation"
@@ -135,6 +141,7 @@ struct Scene {
   std::vector<double> distances{1.0};    ///< the default zoom: factors on the camera's distance to the bounds' centre
   std::optional<glm::ivec2> frame_size;  ///< if scene.toml has one
   std::vector<ModelChoice> choices;      ///< scenes, cameras and variants of its model files
+  std::optional<Motion> motion;          ///< none: a pose at rest
   std::vector<std::string>
       defaults;  ///< things that the loader supplied, one line each ("camera: framed on the bounds")
   std::vector<std::string> warnings;  ///< things of the input that Footprint leaves out, one line each

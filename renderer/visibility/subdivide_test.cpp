@@ -64,6 +64,19 @@ TEST(Subdivided, MiddlesInterpolate) {
   }
 }
 
+TEST(Subdivided, PosesAreSplitAlike) {
+  const Mesh rest = sphere_mesh({0, 0, 0}, 1.0F, 5);
+  Mesh pose = rest;
+  for (Vertex& vertex : pose.vertices) vertex.position *= glm::vec3(0.2F, 3.0F, 1.0F);
+  const Mesh fine = subdivided(rest, 0.2F), alike = subdivided(pose, 0.2F, &rest);
+  EXPECT_EQ(alike.indices, fine.indices);
+  ASSERT_EQ(alike.vertices.size(), fine.vertices.size());
+  for (std::size_t i = 0; i < fine.vertices.size(); ++i)
+    EXPECT_LT(glm::distance(alike.vertices[i].position, fine.vertices[i].position * glm::vec3(0.2F, 3.0F, 1.0F)),
+              1e-6F);
+  EXPECT_NE(subdivided(pose, 0.2F).indices, fine.indices);
+}
+
 TEST(Subdivided, NothingToDo) {
   const Mesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(subdivided(mesh, std::numeric_limits<float>::infinity()).indices, mesh.indices);

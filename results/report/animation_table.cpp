@@ -81,6 +81,9 @@ std::string path_words(const Results& results) {
   const Record &first = results.records.front(), &last = results.records.back();
   if (results.way->path == "zoom")
     return fmt::format("a zoom from distance {:g} to {:g}", first.distance, last.distance);
+  if (results.way->path == "animation")
+    return fmt::format("its animation from {:g} to {:g} s at distance {:g}", first.seconds, last.seconds,
+                       last.distance);
   return fmt::format("{} by {:g} degrees at distance {:g}",
                      results.way->path == "orbit" ? "an orbit" : "the lights turn", last.degrees, last.distance);
 }

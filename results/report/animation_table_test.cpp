@@ -36,7 +36,7 @@ TEST(AnimationTable, JsonHasTheWayAndAllFrames) {
 TEST(AnimationTable, CsvHasALineARecordAndQuotesWhatItMust) {
   const std::string csv = results_csv(three_frames());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-  EXPECT_NE(csv.find("plane,a,,,1,10,1,64,48,0.2,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("plane,a,,,1,10,0,1,64,48,0.2,"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",,0.2,0.2,0.6000000000000001,0.6000000000000001,,,,,0.3,0.25,"), std::string::npos) << csv;
   EXPECT_NE(csv.find("\"b:x=1,\"\"y\"\"\""), std::string::npos) << csv;
 }
@@ -53,6 +53,13 @@ TEST(AnimationTable, HasMeansOverTheFramesThatHaveTheFigure) {
       table.find("| a         | 0.25000 | 0.25000 | 0.75000 | 0.75000 |     n/a |     n/a |          n/a | n/a |"),
       std::string::npos)
       << table;
+}
+
+TEST(AnimationTable, NamesTheTimesOfAnAnimation) {
+  Results animation = three_frames();
+  animation.way->path = "animation";
+  for (Record& record : animation.records) record.seconds = 0.5 * record.frame;
+  EXPECT_EQ(path_words(animation), "its animation from 0 to 1 s at distance 1");
 }
 
 TEST(AnimationTable, FramesThatTheReferencesNoiseExplainsAreCountedOnce) {

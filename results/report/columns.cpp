@@ -51,7 +51,7 @@ constexpr std::string_view error_unit = "normalised colour error, 0 to 1";
 constexpr std::string_view cause_unit = "normalised colour by cause, 0 to 2";
 constexpr std::string_view part_unit = "normalised colour error over some of the pixels, 0 to 1";
 
-constexpr std::array<Column, 73> all_columns{
+constexpr std::array<Column, 74> all_columns{
     {{"scene", "/scene", "text"},
      {"method", "/method", "text"},
      {"options", "/options", "text, `name=value;name=value`"},
@@ -59,6 +59,7 @@ constexpr std::array<Column, 73> all_columns{
      {"distance", "/distance", "factor on the scene's own distance", "Distance",
       "Camera distance, as a multiple of the scene’s own.", "", cell::number},
      {"degrees", "/degrees", "angle since the first frame"},
+     {"seconds", "/seconds", "time of the animation, s"},
      {"frame", "/frame", "number from 0"},
      {"width_px", "/size/0", "pixels"},
      {"height_px", "/size/1", "pixels"},

@@ -19,9 +19,9 @@
 
   /** The position on the path in a frame, in words. */
   const place = (frame) => {
-    const {distance, degrees} = frames[frame];
-    const where = film.way.path === 'zoom' ? `distance ${Number(distance.toPrecision(4))}`
-      : `${Number(degrees.toPrecision(4))}°`;
+    const {distance, degrees, seconds} = frames[frame];
+    const short = (value) => Number(value.toPrecision(4));
+    const where = {zoom: `distance ${short(distance)}`, animation: `${short(seconds)} s`}[film.way.path] ?? `${short(degrees)}°`;
     return `frame ${frame} of ${frames.length - 1}, ${where}`;
   };
 

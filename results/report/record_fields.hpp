@@ -146,6 +146,7 @@ void fields(Archive& archive, Is<Record> auto& value) {
   archive("history", value.history);
   archive("distance", value.distance);
   archive("degrees", value.degrees);
+  archive("seconds", value.seconds);
   archive("frame", value.frame);
   archive("size", std::tie(value.width, value.height));
   archive("failure", value.failure);

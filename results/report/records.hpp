@@ -155,6 +155,7 @@ struct Record {
   std::optional<HistoryInfo> history = {};                           ///< none: images are single frames
   double distance = 1;
   double degrees = 0;  ///< that camera or lights have turned by since the first frame of an animation
+  double seconds = 0;  ///< time of the model file's animation, where a path follows it
   int frame = 0;
   int width = 0, height = 0;
   std::optional<std::string> failure = {};  ///< why the method has no figures here; none: it was drawn and measured
@@ -270,7 +271,7 @@ struct TimingInfo {
 
 /// The way of an animation.
 struct AnimationWay {
-  std::string path;                           ///< zoom, orbit or light
+  std::string path;                           ///< zoom, orbit, light or animation
   std::optional<std::array<double, 3>> axis;  ///< of the rotation, unit, in world space; none: nothing turns
 };
 

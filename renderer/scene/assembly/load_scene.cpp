@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <system_error>
 
 #include "renderer/core/error.hpp"
@@ -21,6 +22,11 @@ void add(Model& model, Model part) {
   std::ranges::move(part.materials, std::back_inserter(model.materials));
   std::ranges::move(part.lights, std::back_inserter(model.lights));
   if (!model.camera) model.camera = part.camera;
+  if (part.motion) {
+    Motion& motion = model.motion ? *model.motion : model.motion.emplace();
+    motion.last_key = std::max(motion.last_key, part.motion->last_key);
+    motion.content = fnv1a(std::as_bytes(std::span(&part.motion->content, 1)), motion.content);
+  }
   std::ranges::move(part.choices, std::back_inserter(model.choices));
   for (std::string& warning : part.warnings) add_once(model.warnings, std::move(warning));
 }
@@ -84,7 +90,8 @@ void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& sc
   }
 }
 
-Scene assemble_scene(const SceneSettings& settings, const std::string& name, const std::string& source) {
+Scene assemble_scene(const SceneSettings& settings, const std::string& name, const std::string& source,
+                     const std::optional<Bounds>& bounds) {
   Model model;
   for (const PartSettings& part : settings.parts) add(model, load_part(part));
   if (model.meshes.empty()) {
@@ -96,8 +103,9 @@ Scene assemble_scene(const SceneSettings& settings, const std::string& name, con
   scene.meshes = std::move(model.meshes);
   scene.materials = std::move(model.materials);
   scene.choices = std::move(model.choices);
+  scene.motion = model.motion;
   scene.warnings = std::move(model.warnings);
-  scene.bounds = bounds_of(scene.meshes);
+  scene.bounds = bounds ? *bounds : bounds_of(scene.meshes);
   scene.frame_size = settings.frame_size;
   scene.distances = settings.distances;
   scene.shadows = settings.shadows;
@@ -164,17 +172,18 @@ void apply(const SceneOverrides& overrides, SceneSource& source) {
   if (overrides.environment) {
     source.settings.environment.emplace().candidates = {*overrides.environment};
   }
+  source.bounds = overrides.bounds;
   if (overrides.most_texels) limit_surfaces(*overrides.most_texels, source.settings);
 }
 
 SceneSource settings_source(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
   const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
-  return {read_scene_settings(file, surfaces), stem, source, file};
+  return {read_scene_settings(file, surfaces), stem, source, file, {}};
 }
 
 SceneSource bare_source(const fs::path& file, const std::string& source) {
-  SceneSource out{{}, file.stem().string(), source, {}};
+  SceneSource out{{}, file.stem().string(), source, {}, {}};
   out.settings.parts.emplace_back().content = ModelSettings{{file}, {}, false, {}};
   out.settings.supply_environment = true;
   return out;
@@ -211,7 +220,7 @@ SceneSource read_scene(const std::string& scene, const SceneLibrary& library, co
 
 Scene assemble(const SceneSource& source) {
   try {
-    return assemble_scene(source.settings, source.name, source.source);
+    return assemble_scene(source.settings, source.name, source.source, source.bounds);
   } catch (const Error& error) {
     if (source.file.empty()) throw;
     throw error.within(source.file.string());

@@ -21,9 +21,10 @@ namespace footprint {
 /// The settings of a scene before it is assembled, which may still be changed.
 struct SceneSource {
   SceneSettings settings;
-  std::string name;            ///< default name, if the settings have none
-  std::string source;          ///< SCENE as given
-  std::filesystem::path file;  ///< of the settings; empty for a bare model
+  std::string name;              ///< default name, if the settings have none
+  std::string source;            ///< SCENE as given
+  std::filesystem::path file;    ///< of the settings; empty for a bare model
+  std::optional<Bounds> bounds;  ///< none: those of its meshes
 };
 
 /// Overrides of a scene's settings.
@@ -32,6 +33,8 @@ struct SceneOverrides {
   ModelSelection model;   ///< in the scene's only model file; its camera overrides the scene's
   std::optional<std::filesystem::path> environment;  ///< image that replaces the scene's environment
   std::optional<int> most_texels;                    ///< largest texels per side of generated surfaces
+  std::optional<Bounds>
+      bounds;  ///< what cameras and lights without a place of their own go by; none: those of its meshes
 };
 
 /// Reads the settings of SCENE. Throws as load_scene, except errors of assembling.

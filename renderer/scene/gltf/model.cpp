@@ -327,6 +327,7 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
     require_memory(decoded_map_bytes(document), "decoding the model's maps", "scale its textures down, or free memory");
     const ModelChoice animation = animation_choice(document.model, selection);
     const Pose pose(document.model, animation.taken, selection.time.value_or(0.0));
+    result.motion = pose.motion();
     Gatherer gathered(document, pose, variant.taken, result);
     gathered.gather(roots);
     take_camera(document.model, gathered, selection.camera, result);

@@ -105,7 +105,7 @@ std::vector<double> value_at(const Keys& keys, double time, const std::string& i
 
 void apply_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
                    const tinygltf::AnimationChannel& channel, double time, const std::string& place,
-                   std::vector<tinygltf::Node>& nodes) {
+                   std::vector<tinygltf::Node>& nodes, Motion& motion) {
   const std::string& path = channel.target_path;
   if (channel.target_node < 0) return;  // as an extension targets it
   if (path != "translation" && path != "rotation" && path != "scale" && path != "weights") return;
@@ -116,6 +116,9 @@ void apply_channel(const tinygltf::Model& model, const tinygltf::Animation& anim
   if (path != "weights" && !node.matrix.empty())
     refuse_gltf(place, fmt::format("moves nodes[{}], which has a matrix", channel.target_node));
   const Keys keys = read_keys(model, sampler, path, place);
+  motion.last_key = std::max(motion.last_key, static_cast<double>(keys.times.back()));
+  for (const std::vector<float>& numbers : {keys.times, keys.values})
+    motion.content = fnv1a(std::as_bytes(std::span(numbers)), motion.content);
   std::vector<double> value = value_at(keys, time, sampler.interpolation, path == "rotation", place);
   (path == "translation" ? node.translation
    : path == "rotation"  ? node.rotation
@@ -145,9 +148,10 @@ Pose::Pose(const tinygltf::Model& model, const std::optional<std::size_t>& anima
   }
   if (!animation) return;
   const tinygltf::Animation& source = model.animations[*animation];
+  motion_.emplace();
   for (std::size_t i = 0; i < source.channels.size(); ++i)
     apply_channel(model, source, source.channels[i], time, fmt::format("animations[{}].channels[{}]", *animation, i),
-                  nodes_);
+                  nodes_, *motion_);
 }
 
 glm::dmat4 Pose::world_of(int node) const {

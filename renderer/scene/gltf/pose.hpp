@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/scene.hpp"
+
 namespace footprint {
 
 /// A node's own transform: its matrix, or translation * rotation * scale. Throws Error (usage) that names `place`: a
@@ -32,6 +34,8 @@ class Pose {
   Pose(const tinygltf::Model& model, const std::optional<std::size_t>& animation, double time);
 
   [[nodiscard]] const std::vector<tinygltf::Node>& nodes() const { return nodes_; }
+  /// None without an animation.
+  [[nodiscard]] const std::optional<Motion>& motion() const { return motion_; }
 
   /// The pose of the mesh of a node whose transform is `world`. Throws Error (usage): a skin whose joints are no tree,
   /// or with fewer inverse bind matrices than joints.
@@ -43,6 +47,7 @@ class Pose {
   const tinygltf::Model& model_;
   std::vector<tinygltf::Node> nodes_;
   std::vector<int> parents_;  // -1: a root
+  std::optional<Motion> motion_;
 };
 
 }  // namespace footprint

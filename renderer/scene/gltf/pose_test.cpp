@@ -54,6 +54,19 @@ TEST(GltfAnimation, TranslationsAreInterpolatedAndHeldBeyondTheKeys) {
   expect_near(centre_of(at(steps, 3.0)), {4, 2, 0});
 }
 
+TEST(GltfAnimation, HasTheTimeOfItsLastKeyAndAHashOfAllKeys) {
+  const auto motion = [](const std::vector<float>& times, const std::vector<float>& values) {
+    return at(animated("translation", times, values, "VEC3", "LINEAR"), 0.0).motion;
+  };
+  const auto own = motion({1, 3}, {0, 0, 0, 4, 2, 0});
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->last_key, 3.0);
+  EXPECT_EQ(own->content, motion({1, 3}, {0, 0, 0, 4, 2, 0})->content);
+  EXPECT_NE(own->content, motion({1, 3}, {0, 0, 0, 4, 2, 1})->content);
+  EXPECT_NE(own->content, motion({1, 2}, {0, 0, 0, 4, 2, 0})->content);
+  EXPECT_FALSE(load_gltf(make_quad().write()).motion);
+}
+
 TEST(GltfAnimation, IsAtRestUnlessATimeOrAnAnimationIsGiven) {
   GltfBuilder file = animated("translation", {0, 1}, {5, 0, 0, 6, 0, 0}, "VEC3", "LINEAR");
   file.json["nodes"][0]["translation"] = {9, 0, 0};

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "app/run_options.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/score.hpp"
+#include "experiments/studies/score_limits.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
@@ -28,6 +31,7 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/check_outcomes.hpp"
 #include "results/report/markup.hpp"
 #include "results/report/report.hpp"
 
@@ -35,6 +39,7 @@ namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 constexpr const char* score_examples =
     "IMAGE is an EXR or Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours "
@@ -46,6 +51,7 @@ constexpr const char* score_examples =
     "  footprint score engine.exr --reference reference.exr\n"
     "  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score\n"
     "  footprint score a.exr b.exr --reference out/images/d1_reference.exr --mask object.png -o score\n"
+    "  footprint score nightly --reference golden --max p99=0.05 --max share_above:0.1=0.01 --junit score.xml\n"
     "\n"
     "If `footprint compare` wrote the reference, its exposure and standard error are used.";
 
@@ -56,9 +62,11 @@ struct ScoreArguments {
 
   RunOptions run;
   std::vector<std::string> pictures;
-  std::string reference, standard_error, mask, output;
+  std::string reference, standard_error, picture_error, mask, output, junit;
+  std::vector<std::string> limits;
   double pixels_per_degree = flip_pixels_per_degree;
-  bool quiet = false;
+  std::optional<double> significance;
+  bool github = false, quiet = false;
 };
 
 // The reference of a score.
@@ -124,15 +132,33 @@ Reference given_reference(const ScoreArguments& arguments) {
 }
 
 struct Scores {
+  std::string reference;
   std::vector<PictureScore> pictures;
   std::optional<PairScore> pair;
   float exposure = 1.0F;
   std::size_t pixels = 0, unresolved = 0;
 };
 
+// Tests an image per pixel, if that was requested.
+std::optional<std::size_t> tested(const ScoreArguments& arguments, const ScoredPicture& picture,
+                                  const Reference& reference) {
+  if (!arguments.significance) return {};
+  if (picture.displayed)
+    throw Error(ErrorKind::usage, picture.name, "it stores displayed colours, but --significance tests radiance",
+                "give an EXR");
+  if (reference.standard_error.empty())
+    throw Error(ErrorKind::usage, "--significance", "the noise of the reference is not known",
+                "give --standard-error, or a reference that `footprint compare` wrote");
+  const Image own = arguments.picture_error.empty() ? Image() : read_standard_error(arguments.picture_error);
+  return rejected_pixels(
+      picture.radiance, reference.picture,
+      {.reference_error = reference.standard_error, .picture_error = own, .significance = *arguments.significance});
+}
+
 Scores take_scores(const ScoreArguments& arguments) {
   Reference reference = names_a_scene(arguments.reference) ? rendered_reference(arguments) : given_reference(arguments);
   Scores out;
+  out.reference = arguments.reference;
   out.exposure = reference.exposure;
   if (!reference.standard_error.empty())
     out.unresolved = leave_out_unresolved(reference.picture, reference.standard_error, reference.exposure);
@@ -142,8 +168,10 @@ Scores take_scores(const ScoreArguments& arguments) {
   }
   std::vector<ScoredPicture> pictures;
   for (const std::string& file : arguments.pictures) pictures.push_back(read_scored(file, out.exposure));
-  for (const ScoredPicture& picture : pictures)
+  for (const ScoredPicture& picture : pictures) {
     out.pictures.push_back(score_picture(picture, reference.picture, out.exposure, arguments.pixels_per_degree));
+    out.pictures.back().rejected = tested(arguments, picture, reference);
+  }
   if (pictures.size() == 2) {
     out.pair = score_pair(pictures[0], pictures[1], reference.picture, reference.standard_error, out.exposure);
   }
@@ -157,18 +185,20 @@ Json score_json(const PictureScore& score) {
     const std::optional<double> value = metric.value(score);
     json[metric.key] = json_number(value && std::isfinite(*value) ? value : std::nullopt);
   }
+  json["rejected"] = score.rejected ? Json(*score.rejected) : Json(nullptr);
   return json;
 }
 
-std::string scores_json(const ScoreArguments& arguments, const Scores& scores) {
+Json scores_json(const ScoreArguments& arguments, const Scores& scores) {
   Json pictures = Json::array();
   for (const PictureScore& score : scores.pictures) pictures.push_back(score_json(score));
   Json json{{"schema", "footprint-score/1"},
             {"tool", {{"name", "footprint"}, {"version", FOOTPRINT_VERSION}}},
-            {"reference", arguments.reference},
+            {"reference", scores.reference},
             {"mask", arguments.mask.empty() ? Json(nullptr) : Json(arguments.mask)},
             {"exposure", json_number(scores.exposure)},
             {"pixels_per_degree", json_number(arguments.pixels_per_degree)},
+            {"significance", json_number(arguments.significance)},
             {"pixels", scores.pixels},
             {"unresolved", scores.unresolved},
             {"pictures", std::move(pictures)}};
@@ -176,7 +206,7 @@ std::string scores_json(const ScoreArguments& arguments, const Scores& scores) {
     json["closer"] = {{"shares", {json_number(scores.pair->shares.a), json_number(scores.pair->shares.b)}},
                       {"beyond_noise", scores.pair->beyond_noise}};
   }
-  return json_text(json, 2);
+  return json;
 }
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "n/a"; }
@@ -208,22 +238,97 @@ void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
   if (scores.pair) write_png(folder / "closer.png", verdict_picture(scores.pair->verdicts, scores.pair->object));
 }
 
+// The images of a folder that have a known format, by their paths in it.
+std::vector<fs::path> images_in(const fs::path& folder) {
+  constexpr std::array<std::string_view, 9> known{".exr", ".hdr",  ".png", ".jpg", ".jpeg",
+                                                  ".tif", ".tiff", ".bmp", ".webp"};
+  std::vector<fs::path> images;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const bool is_image = std::ranges::find(known, lower_extension(entry.path())) != known.end();
+    if (entry.is_regular_file() && is_image) images.push_back(entry.path().lexically_relative(folder));
+  }
+  std::ranges::sort(images);
+  return images;
+}
+
+// One score per image of a reference folder, against the image of the same path in the other folder.
+std::vector<ScoreArguments> folder_scores(const ScoreArguments& arguments) {
+  const fs::path pictures = arguments.pictures.front(), references = arguments.reference;
+  std::vector<ScoreArguments> scores;
+  for (const fs::path& image : images_in(references)) {
+    if (!fs::is_regular_file(pictures / image))
+      throw Error(ErrorKind::usage, (pictures / image).string(),
+                  fmt::format("no such file, but {} has one", references.string()),
+                  "give folders with images of the same names");
+    ScoreArguments& one = scores.emplace_back(arguments);
+    one.pictures = {(pictures / image).string()};
+    one.reference = (references / image).string();
+  }
+  if (!scores.empty()) return scores;
+  throw Error(ErrorKind::usage, references.string(), "has no image", "give a folder of references");
+}
+
+// What the arguments ask to be scored: folders against each other, or one or two images.
+std::vector<ScoreArguments> wanted_scores(const ScoreArguments& arguments) {
+  std::error_code none;
+  const bool folders = fs::is_directory(arguments.pictures.front(), none);
+  if (!folders) return {arguments};
+  if (arguments.pictures.size() == 1 && fs::is_directory(arguments.reference, none)) return folder_scores(arguments);
+  throw Error(ErrorKind::usage, arguments.pictures.front(), "a folder is scored against a folder of references alone",
+              "give two folders, or images");
+}
+
+std::string scores_text(const Scores& scores) {
+  return fmt::format("{} pixels{}, exposure {:.4g}\n\n{}", scores.pixels,
+                     scores.unresolved == 0 ? "" : fmt::format(" ({} unresolved left out)", scores.unresolved),
+                     scores.exposure, scores_table(scores));
+}
+
+void write_scores(const ScoreArguments& arguments, std::span<const Scores> all, OutputFolder& out) {
+  for (const Scores& scores : all) {
+    const fs::path part =
+        all.size() == 1 ? fs::path() : fs::path(scores.reference).lexically_relative(arguments.reference);
+    fs::create_directories(out.path() / part);
+    write_file_atomically(out.path() / part / "score.json", json_text(scores_json(arguments, scores), 2));
+    write_pictures(out.path() / part, scores);
+  }
+  out.commit();
+}
+
+// Reports the outcomes of limits. Errors (check): one failed.
+void judge(const ScoreArguments& arguments, std::span<const CheckOutcome> outcomes) {
+  if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(outcomes));
+  if (arguments.github) write_output(github_annotations(outcomes));
+  const std::vector<std::string> failed = shortfalls_of(outcomes);
+  std::string list;
+  for (const std::string& line : failed) list += "failed: " + line + "\n";
+  write_output(list);
+  if (failed.empty()) return;
+  throw Error(ErrorKind::check, "score",
+              fmt::format("{} limits failed, the first: {}", failed.size(), failed.front().substr(0, 300)), "");
+}
+
 void run_score(const ScoreArguments& arguments) {
-  const Scores scores = take_scores(arguments);
-  std::string text =
-      fmt::format("{} pixels{}, exposure {:.4g}\n\n{}", scores.pixels,
-                  scores.unresolved == 0 ? "" : fmt::format(" ({} unresolved left out)", scores.unresolved),
-                  scores.exposure, scores_table(scores));
+  std::vector<ScoreLimit> limits;
+  for (const std::string& text : arguments.limits) limits.push_back(parse_score_limit(text));
+  std::vector<Scores> all;
+  std::vector<CheckOutcome> outcomes;
+  std::string text;
+  for (const ScoreArguments& one : wanted_scores(arguments)) {
+    all.push_back(take_scores(one));
+    text += scores_text(all.back());
+    for (const PictureScore& score : all.back().pictures)
+      std::ranges::move(limit_outcomes(limits, score), std::back_inserter(outcomes));
+  }
   if (!arguments.output.empty()) {
     const auto [made, folder] = write_whole(arguments.output, [&](OutputFolder& out) {
-      write_file_atomically(out.path() / "score.json", scores_json(arguments, scores));
-      write_pictures(out.path(), scores);
-      out.commit();
+      write_scores(arguments, all, out);
       return true;
     });
-    text += fmt::format("\nscore: {}\n", (folder / "score.json").string());
+    text += fmt::format("\nscore: {}\n", (folder / (all.size() == 1 ? "score.json" : "")).string());
   }
   write_output(text);
+  judge(arguments, outcomes);
 }
 
 }  // namespace
@@ -231,20 +336,39 @@ void run_score(const ScoreArguments& arguments) {
 void add_score_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("score", "Score images of any renderer against a reference");
   const auto arguments = std::make_shared<ScoreArguments>(*command);
-  command->add_option("pictures", arguments->pictures, "One image, or two")
+  command->add_option("pictures", arguments->pictures, "One image, two, or a folder of images")
       ->type_name("IMAGE")
       ->required()
       ->expected(1, 2);
   command
       ->add_option("--reference", arguments->reference,
-                   "Scene, or an EXR of linear radiance, with coverage in alpha if present")
-      ->type_name("SCENE|EXR")
+                   "Scene, an EXR of linear radiance, with coverage in alpha if present, or a folder of such images")
+      ->type_name("SCENE|EXR|FOLDER")
       ->required();
   command
       ->add_option("--standard-error", arguments->standard_error,
                    "EXR of the reference's standard error, RGB; without it, noise counts as error")
       ->type_name("EXR");
   command->add_option("--mask", arguments->mask, "Image that is black where pixels do not count")->type_name("IMAGE");
+  command
+      ->add_option("--picture-error", arguments->picture_error,
+                   "EXR of the image's own standard error, for --significance")
+      ->type_name("EXR");
+  command
+      ->add_option("--significance", arguments->significance,
+                   "Test every pixel: count those whose difference noise explains with less than this probability, "
+                   "over all pixels")
+      ->check(within(1e-9, 0.5));
+  command
+      ->add_option("--max", arguments->limits,
+                   "Fail (exit code 1) above VALUE; NAME is a measure of score.json, pN (percentile), share_above:E or "
+                   "rejected; "
+                   "may be repeated")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--junit", arguments->junit, "Also write every limit as JUnit XML")->type_name("FILE");
+  command->add_flag("--github", arguments->github, "Also print failures as annotations for GitHub workflows");
   command
       ->add_option("--pixels-per-degree", arguments->pixels_per_degree,
                    "Pixels per degree of the observer's field of view, for FLIP")

@@ -13,6 +13,7 @@
 #include "experiments/runner/functions.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 
@@ -187,11 +188,8 @@ class Parser {
   template <typename T>
   static bool read(const std::string& text, std::optional<T>& value) {
     if (value) return false;
-    T number{};
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) return false;
-    value = number;
-    return true;
+    value = parse_whole_of<T>(text);
+    return value.has_value();
   }
 
   // Up to the next comma or parenthesis, without blanks around it.

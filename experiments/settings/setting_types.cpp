@@ -1,12 +1,12 @@
 // Reads the values of settings from text, and writes them as text.
 #include "experiments/settings/setting_types.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "renderer/core/memory.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/gpu_cost/chips.hpp"
 
 namespace footprint::setting_types {
@@ -17,16 +17,6 @@ constexpr double smallest_exposure = 1e-30, largest_exposure = 1e30;
 
 Error not_valid(std::string_view option, std::string_view text, std::string_view why, std::string hint) {
   return {ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, why), std::move(hint)};
-}
-
-// The whole of `text` as a number; empty if it is not one, or does not fit the type.
-template <typename Number>
-std::optional<Number> parse_whole_of(std::string_view text) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, number);
-  if (status != std::errc{} || stop != end) return std::nullopt;
-  return number;
 }
 
 // The comma-separated parts of a text; one empty part of an empty text.

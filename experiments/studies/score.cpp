@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -77,8 +78,10 @@ std::optional<double> of_radiance(const PictureScore& score, double value) {
   return score.displayed ? std::nullopt : std::optional(value);
 }
 
-constexpr std::array<ScoreMetric, 8> metrics{{
+constexpr std::array<ScoreMetric, 9> metrics{{
     {"normalized_color", "Error", [](const PictureScore& s) { return std::optional(s.error.normalized_color); }},
+    {"normalized_color_p99", "99th perc.",
+     [](const PictureScore& s) { return std::optional(error_percentile(s, 99.0)); }},
     {"relative_rmse", "Rel. RMSE", [](const PictureScore& s) { return of_radiance(s, s.error.relative_rmse); }},
     {"relmse", "relMSE", [](const PictureScore& s) { return of_radiance(s, s.error.relmse); }},
     {"psnr", "PSNR dB", [](const PictureScore& s) { return std::optional(s.error.psnr); }},
@@ -191,6 +194,11 @@ PictureScore score_picture(const ScoredPicture& picture, const Image& reference,
     out.name = picture.name;
     out.displayed = picture.displayed;
     out.error = *error;
+    const Image errors = error_map(picture.radiance, reference, exposure);
+    for (std::size_t i = 0; i < object.texel_count(); ++i) {
+      if (object.texels[i] > 0.0F) out.pixel_errors.push_back(errors.texels[i]);
+    }
+    std::ranges::sort(out.pixel_errors);
     out.ldr_map = ldr_flip(shown(picture.radiance, exposure), shown(reference, exposure), pixels_per_degree);
     out.ldr_flip = mean_over(out.ldr_map, object);
     if (picture.displayed) return out;
@@ -201,6 +209,33 @@ PictureScore score_picture(const ScoredPicture& picture, const Image& reference,
   } catch (const Error& error) {
     throw error.within(picture.name);
   }
+}
+
+double error_percentile(const PictureScore& score, double percent) {
+  const double rank = std::ceil(percent / 100.0 * static_cast<double>(score.pixel_errors.size()));
+  return score.pixel_errors[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+std::size_t rejected_pixels(const Image& picture, const Image& reference, const PixelTest& test) {
+  require_size(test.reference_error, reference, "the standard error");
+  const bool noisy = !test.picture_error.empty();
+  if (noisy) require_size(test.picture_error, reference, "the image's standard error");
+  const Image object = object_pixels(reference);
+  const double tests = 3.0 * static_cast<double>(object_pixel_count(reference));
+  const double least = -std::expm1(std::log1p(-test.significance) / tests);
+  const auto is_off = [&](int x, int y, std::size_t c) {
+    const double difference = static_cast<double>(picture.at(x, y)[c]) - static_cast<double>(reference.at(x, y)[c]);
+    const double own = noisy ? static_cast<double>(test.picture_error.at(x, y)[c]) : 0.0;
+    const double error = std::hypot(static_cast<double>(test.reference_error.at(x, y)[c]), own);
+    return difference != 0.0 && std::erfc(std::abs(difference) / (std::numbers::sqrt2 * error)) < least;
+  };
+  std::size_t rejected = 0;
+  for (int y = 0; y < object.height; ++y) {
+    for (int x = 0; x < object.width; ++x) {
+      if (object.at(x, y)[0] > 0.0F && (is_off(x, y, 0) || is_off(x, y, 1) || is_off(x, y, 2))) ++rejected;
+    }
+  }
+  return rejected;
 }
 
 Image verdict_picture(const Image& verdicts, const Image& object) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/image/flip.hpp"
 #include "renderer/image/image.hpp"
@@ -41,10 +42,27 @@ struct PictureScore {
   std::string name;
   bool displayed = false;
   ErrorFigures error;
-  double ldr_flip = 0;             ///< mean over object pixels
-  std::optional<double> hdr_flip;  ///< the same; none for displayed colours
-  Image ldr_map, hdr_map;          ///< over all pixels; hdr_map is empty if hdr_flip is none
+  double ldr_flip = 0;                  ///< mean over object pixels
+  std::optional<double> hdr_flip;       ///< the same; none for displayed colours
+  Image ldr_map, hdr_map;               ///< over all pixels; hdr_map is empty if hdr_flip is none
+  std::vector<float> pixel_errors;      ///< normalised colour error of each object pixel, ascending; one or more
+  std::optional<std::size_t> rejected;  ///< object pixels that are off by more than noise; none: not tested
 };
+
+/// The error that `percent` (0 to 100) of the object pixels do not exceed, by nearest rank.
+[[nodiscard]] double error_percentile(const PictureScore& score, double percent);
+
+/// The noise that a test per pixel compares differences with.
+struct PixelTest {
+  Image reference_error;       ///< standard error of the reference, RGB
+  Image picture_error;         ///< of the image; empty: it has no noise
+  double significance = 0.01;  ///< probability that a correct image has any rejected pixel, above 0 and below 1
+};
+
+/// The object pixels at which an image differs from the reference by more than noise: a two-sided test of the normal
+/// distribution per pixel and channel, with Šidák's correction over all of them (1 - (1 - significance)^(1 / tests)),
+/// as in Mitsuba's tests. Radiance is compared, without exposure. Errors (usage): sizes differ.
+[[nodiscard]] std::size_t rejected_pixels(const Image& picture, const Image& reference, const PixelTest& test);
 
 /// A measure of a score, in the order of tables and of score.json.
 struct ScoreMetric {

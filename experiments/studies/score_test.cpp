@@ -3,7 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/studies/score_limits.hpp"
+#include "renderer/core/error.hpp"
 
 namespace footprint {
 namespace {
@@ -92,6 +99,100 @@ TEST(Significance, IsNotSaidWhereTheNoiseIsNotKnown) {
   Supersampled reference = noisy(0.5F, true);
   reference.halves.reset();
   EXPECT_FALSE(closer_beyond_noise(even(0.4F), even(0.9F), reference, 1.0F).has_value());
+}
+
+// ---- the test per pixel ----
+
+Image with_noise(float value, float deviation, unsigned seed) {
+  Image image = even(value);
+  std::mt19937 random(seed);
+  std::normal_distribution<float> normal(0.0F, deviation);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    if (i % 4 < 3) image.texels[i] += normal(random);
+  }
+  return image;
+}
+
+TEST(RejectedPixels, AreNoneOfNoiseAlone) {
+  const PixelTest test{.reference_error = Image(edge, edge, 3, 0.02F), .picture_error = {}, .significance = 0.01};
+  int images = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+    images += rejected_pixels(even(0.5F), with_noise(0.5F, 0.02F, seed), test) > 0 ? 1 : 0;
+  EXPECT_LE(images, 3) << "of 40 images 0.4 are expected";
+  const PixelTest both{.reference_error = Image(edge, edge, 3, 0.03F),
+                       .picture_error = Image(edge, edge, 3, 0.04F),
+                       .significance = 0.01};
+  EXPECT_EQ(rejected_pixels(with_noise(0.5F, 0.04F, 5), with_noise(0.5F, 0.03F, 6), both), 0U);
+}
+
+TEST(RejectedPixels, AreThoseBeyondTheNoiseOfAllTests) {
+  const PixelTest test{.reference_error = Image(edge, edge, 3, 0.02F), .picture_error = {}, .significance = 0.01};
+  // Of 120000 tests a probability of 8.4e-8 each: 5.36 standard errors.
+  Image picture = even(0.5F);
+  picture.at(3, 4)[1] += 5.3F * 0.02F;
+  EXPECT_EQ(rejected_pixels(picture, even(0.5F), test), 0U);
+  picture.at(3, 4)[1] += 0.12F * 0.02F;
+  EXPECT_EQ(rejected_pixels(picture, even(0.5F), test), 1U);
+  Image uncovered = even(0.5F);
+  uncovered.at(3, 4)[3] = 0.0F;
+  EXPECT_EQ(rejected_pixels(picture, uncovered, test), 0U);
+  const PixelTest exact{.reference_error = Image(edge, edge, 3), .picture_error = {}, .significance = 0.01};
+  EXPECT_EQ(rejected_pixels(picture, even(0.5F), exact), 1U) << "without noise any difference counts";
+}
+
+// ---- limits ----
+
+PictureScore score_of(std::vector<float> errors) {
+  PictureScore score;
+  score.name = "a.exr";
+  score.pixel_errors = std::move(errors);
+  score.error.normalized_color = 0.2;
+  return score;
+}
+
+TEST(ScoreLimits, AreAboutMeasuresPercentilesSharesAndTests) {
+  PictureScore score = score_of({0.0F, 0.1F, 0.2F, 0.5F});
+  const auto figure = [&](const std::string& text) { return figure_of(parse_score_limit(text), score); };
+  EXPECT_EQ(figure("normalized_color=1"), 0.2);
+  EXPECT_EQ(figure("p50=1"), 0.1F);
+  EXPECT_EQ(figure("p75.1=1"), 0.5F);
+  EXPECT_EQ(figure("p0=1"), 0.0F);
+  EXPECT_EQ(figure("p100=1"), 0.5F);
+  EXPECT_EQ(figure("share_above:0.1=1"), 0.5);
+  EXPECT_EQ(figure("share_above:1=1"), 0.0);
+  EXPECT_EQ(figure("rejected=0"), std::nullopt);
+  score.rejected = 2;
+  EXPECT_EQ(figure("rejected=0"), 2.0);
+}
+
+TEST(ScoreLimits, FailAboveTheirValue) {
+  const std::vector<ScoreLimit> limits{parse_score_limit("p100=0.5"), parse_score_limit("p100=0.49"),
+                                       parse_score_limit("rejected=0"), parse_score_limit("hdr_flip=1")};
+  const std::vector<CheckOutcome> outcomes = limit_outcomes(limits, score_of({0.0F, 0.5F}));
+  ASSERT_EQ(outcomes.size(), 4U);
+  EXPECT_EQ(outcomes[0].failure, "");
+  EXPECT_EQ(outcomes[1].failure, "it is 0.5");
+  EXPECT_EQ(outcomes[1].suite, "a.exr");
+  EXPECT_NE(outcomes[2].failure.find("--significance"), std::string::npos);
+  EXPECT_NE(outcomes[3].failure.find("no such figure"), std::string::npos);
+}
+
+TEST(ScoreLimits, RefuseWhatTheyAreNot) {
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{{"p99", "NAME=VALUE"},
+                                                                                    {"=1", "NAME=VALUE"},
+                                                                                    {"ldr_flp=1", "ldr_flip"},
+                                                                                    {"p101=1", "0 to 100"},
+                                                                                    {"share_above:2=1", "0 to 1"},
+                                                                                    {"p99=nan", "not a number"},
+                                                                                    {"p99=", "not a number"}}) {
+    try {
+      (void)parse_score_limit(text);
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "renderer/image/metrics.hpp"
 #include "tests/methods/bins_probe.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace footprint {
 const Method& exact_method();
@@ -185,7 +186,7 @@ constexpr Lobe narrow{NormalDistribution::beckmann, 0.02}, medium{NormalDistribu
 TEST(AtanasovBounded, LobesAreNearThePlainSum) {
   for (const Kind kind : kinds) {
     const Image normals = map_of(kind, 1024);
-    for (const Lobe& lobe : {narrow, medium, tailed, wide}) {
+    for (const Lobe& lobe : sweep(std::array{narrow, medium, tailed, wide}, 2, static_cast<std::size_t>(kind))) {
       EXPECT_LT(error_of_lobes(normals, large_footprints, Wrap::repeat, lobe), 0.055)
           << static_cast<int>(kind) << ", " << lobe_text(lobe);
     }
@@ -203,8 +204,9 @@ TEST(AtanasovBounded, SeveralMapsAreNearThePlainSum) {
                                               turned({50.0, 70.0}, {330.0, 280.0}, 1.0)};
   for (const Kind kind : kinds) {
     const Image normals = map_of(kind, 128);
-    for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
-      for (const Lobe& lobe : {medium, tailed}) {
+    const auto first = static_cast<std::size_t>(kind);
+    for (const Wrap wrap : sweep(std::array{Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}, 2, first)) {
+      for (const Lobe& lobe : sweep(std::array{medium, tailed}, 1, first)) {
         EXPECT_LT(error_of_lobes(normals, footprints, wrap, lobe), wrap == Wrap::clamp_to_edge ? 0.03 : 0.055)
             << static_cast<int>(kind) << ", wrap " << static_cast<int>(wrap) << ", " << lobe_text(lobe);
       }
@@ -241,7 +243,8 @@ TEST(AtanasovBounded, ManyLightsAreAsOne) {
     for (const NormalDistribution distribution : {NormalDistribution::beckmann, NormalDistribution::ggx}) {
       const Scene scene = lit_square(kind, distribution);
       const Image exact = picture(scene, 1, exact_method(), "exact:kernel=areas:texels=256");
-      for (const auto& [lights, error, energy] : light_counts) {
+      const std::size_t first = static_cast<std::size_t>(kind) + (distribution == NormalDistribution::ggx ? 2 : 0);
+      for (const auto& [lights, error, energy] : sweep(light_counts, 2, first)) {
         const auto found = compare_images(picture(scene, lights, atanasov_bins_method(), "atanasov_bins"), exact, 1.0F);
         EXPECT_LT(found.value().relative_rmse, error) << static_cast<int>(kind) << ", " << lights;
         EXPECT_LT(std::abs(found.value().energy_bias), energy) << static_cast<int>(kind) << ", " << lights;

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstddef>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {
@@ -91,11 +91,8 @@ std::optional<std::size_t> find_entry(std::string_view wanted, std::span<const s
   if (const auto named = std::ranges::find(names, wanted); named != names.end()) {
     return static_cast<std::size_t>(named - names.begin());
   }
-  std::size_t index = 0;
-  const char* const end = wanted.data() + wanted.size();
-  const auto [stop, status] = std::from_chars(wanted.data(), end, index);
-  if (status != std::errc{} || stop != end || index >= names.size()) return {};
-  return index;
+  const auto index = parse_whole_of<std::size_t>(wanted);
+  return index && *index < names.size() ? index : std::nullopt;
 }
 
 std::size_t find_word(std::span<const std::string> known, std::string_view word, std::string_view what,

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {
@@ -17,12 +17,10 @@ namespace {
 using Value = std::variant<double, std::string>;
 
 double parse_number(const OptionSpec& spec, const std::string& text, std::string_view owner) {
-  double number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, number);
-  const bool fits = status == std::errc{} && stop == end && std::isfinite(number) && number >= spec.minimum &&
-                    number <= spec.maximum && (!spec.integer || number == std::floor(number));
-  if (fits) return number;
+  const auto number = parse_whole_of<double>(text);
+  const bool fits = number && std::isfinite(*number) && *number >= spec.minimum && *number <= spec.maximum &&
+                    (!spec.integer || *number == std::floor(*number));
+  if (fits) return *number;
   throw Error(
       ErrorKind::usage, fmt::format("{}, option {}", owner, spec.name), fmt::format("`{}` is not valid", text),
       fmt::format("give a {} from {} to {}", spec.integer ? "whole number" : "number", spec.minimum, spec.maximum));

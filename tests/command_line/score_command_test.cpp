@@ -27,8 +27,14 @@ Case row(const std::string& name, std::vector<std::string> arguments) {
                     {"darker.hdr", grey_hdr(2, 0x30)},
                     {"darkest.hdr", grey_hdr(2, 0x10)},
                     {"tall.hdr", grey_hdr(3, 0x40)},
+                    {"quiet.hdr", grey_hdr(2, 0x01)},
                     {"white.png", grey_png('\xff')},
                     {"black.png", grey_png('\0')},
+                    {"golden/near/one.hdr", grey_hdr(2, 0x40)},
+                    {"golden/two.hdr", grey_hdr(2, 0x40)},
+                    {"golden/notes.txt", "text"},
+                    {"nightly/near/one.hdr", grey_hdr(2, 0x40)},
+                    {"nightly/two.hdr", grey_hdr(2, 0x30)},
                     {"text.png", "text"}}};
 }
 
@@ -75,6 +81,40 @@ std::vector<Case> good_scores() {
   };
 }
 
+// Limits and the test per pixel. The error of darker.hdr is 0.125 everywhere.
+std::vector<Case> limited_scores() {
+  const auto failed = [](const std::string& name, std::vector<std::string> arguments, std::vector<std::string> output) {
+    Case made = good(name, std::move(arguments), std::move(output));
+    made.exit_code = 1;
+    made.errors_have = {"limits failed"};
+    return made;
+  };
+  const std::vector<std::string> one{"{}/darker.hdr", "--reference", "{}/reference.hdr", "--exposure", "1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), one.begin(), one.end());
+    return more;
+  };
+  return {
+      good("ScoreWithinLimits", with({"--max", "p99=0.13", "--max", "share_above:0.2=0", "--junit", "{}/out.xml"}),
+           {"| 0.125 |"}, {"out.xml"}),
+      failed("ScoreAboveALimit", with({"--max", "p99=0.12", "--github"}),
+             {"failed: limit p99=0.12: it is 0.125", "::error file=", "darker.hdr%3A limit p99=0.12::it is 0.125"}),
+      failed("ScoreBeyondNoiseOfAllPixels",
+             with({"--standard-error", "{}/quiet.hdr", "--significance", "0.01", "--max", "rejected=3"}),
+             {"failed: limit rejected=3: it is 4"}),
+      good("ScoreWithinNoiseOfAllPixels",
+           with({"--standard-error", "{}/darkest.hdr", "--significance", "0.01", "--max", "rejected=0"}),
+           {"| 0.125 |"}),
+      failed("ScoreOfFolders",
+             {"{}/nightly", "--reference", "{}/golden", "--exposure", "1", "--max", "normalized_color=0.1"},
+             {"one.hdr", "two.hdr", "failed: limit normalized_color=0.1: it is 0.125"}),
+      good("ScoreOfFoldersIntoAFolder", {"{}/nightly", "--reference", "{}/golden", "--max", "p100=1", "-o", "{}/s"},
+           {"score: "},
+           {"s/near/one.hdr/score.json", "s/near/one.hdr/ldr_flip_1.png", "s/near/one.hdr/hdr_flip_1.png",
+            "s/two.hdr/score.json", "s/two.hdr/ldr_flip_1.png", "s/two.hdr/hdr_flip_1.png"}),
+  };
+}
+
 std::vector<Case> wrong_scores() {
   return {
       wrong("ScoreOfAnotherSize", {"{}/tall.hdr", "--reference", "{}/reference.hdr"},
@@ -101,12 +141,21 @@ std::vector<Case> wrong_scores() {
             {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--mask", "{}/tall.hdr"}, {"tall.hdr", "2 x 3"}),
       wrong("ScoreUnderABlackMask", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--mask", "{}/black.png"},
             {"black.png", "leaves no pixel"}),
+      wrong("ScoreWithAnUnknownLimit", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--max", "p99.0.1"},
+            {"--max p99.0.1", "NAME=VALUE"}),
+      wrong("ScoreTestedWithoutNoise", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--significance", "0.01"},
+            {"--significance", "noise of the reference is not known"}),
+      wrong("ScoreOfAFolderAgainstAnImage", {"{}/nightly", "--reference", "{}/reference.hdr"},
+            {"nightly", "folder of references"}),
+      wrong("ScoreOfAFolderThatLacksAnImage", {"{}/nightly/near", "--reference", "{}/golden"},
+            {"near/one.hdr", "no such file"}),
       wrong("ScoreAtNoExposure", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--exposure", "0"},
             {"--exposure"}),
   };
 }
 
 INSTANTIATE_TEST_SUITE_P(GoodScore, CommandLine, ::testing::ValuesIn(good_scores()), case_name);
+INSTANTIATE_TEST_SUITE_P(LimitedScore, CommandLine, ::testing::ValuesIn(limited_scores()), case_name);
 INSTANTIATE_TEST_SUITE_P(WrongScore, CommandLine, ::testing::ValuesIn(wrong_scores()), case_name);
 
 }  // namespace

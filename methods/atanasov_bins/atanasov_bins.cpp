@@ -218,7 +218,7 @@ const Method& atanasov_bins_method() {
                 word_option("storage", {"fp16", "fp32"},
                             "Format of the means of normals over 4 x 4 texels and more, about which diffuse light is "
                             "reflected over wide footprints. All other numbers are integers, or one per bin.")},
-           .honours = map_effects_but({Effect::normal_layers}),
+           .honours = map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers}),
            .lobes_as_given = true,
            .slow_precompute = true,
            .slow_frame = true},

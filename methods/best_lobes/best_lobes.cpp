@@ -217,7 +217,7 @@ const Method& best_lobes_method() {
                            word_option("shape", {"stretched", "round"},
                                        "The base lobe widened, then stretched to a covariance: the lobes of cells and "
                                        "tan_gmm. Or widened alone, as tan_gmm has it.")},
-               .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
+               .honours = map_effects_but({Effect::anisotropic_lobe, Effect::multi_lobe, Effect::normal_layers}),
                .slow_precompute = true,
                .slow_frame = true},
       .precompute = precompute,

@@ -7,6 +7,9 @@ struct Part {
   float share;    // of the footprint; 0: no part
   float lobe;     // parameter of a facet's lobe
   float breadth;  // slope variance per axis about `axis`, a facet's lobe included
+//? if anisotropic_lobe
+  mat2 widths;    // squared alphas of both about `axis`
+//? end
 };
 
 struct Direction {
@@ -17,7 +20,20 @@ Direction directionOf(vec3 h) { return Direction(h); }
 
 Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
   SlopeLobe slopes = slopeLobe(mean, mat2(spread.x, spread.y, spread.y, spread.z), variance);
+//? if anisotropic_lobe
+  return Part(slopes, slopes.axis, share, lobe, slopes.breadth, slopes.widths);
+//? else
   return Part(slopes, slopes.axis, share, lobe, slopes.breadth);
+//? end
 }
 
 float partDensity(Part p, Direction at) { return p.share <= 0.0 ? 0.0 : p.share * slopeDensity(p.slopes, at.h); }
+
+//? if environment_light and anisotropic_lobe
+// Lobe k of the row that stands for a part under an environment.
+NormalLobe rowLobe(Part part, int k) {
+  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);
+  lobe.base = part.lobe;
+  return lobe;
+}
+//? end

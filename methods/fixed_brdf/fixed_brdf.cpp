@@ -32,7 +32,7 @@ const Method& fixed_brdf_method() {
            .paper =
                "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)",
            .options = {storage_option()},
-           .honours = map_effects_but({Effect::normal_layers})},
+           .honours = map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers})},
       .precompute = precompute,
       .shader = module_of(fixed_brdf_glsl, "fixed_brdf.glsl")};
   return method;

@@ -85,7 +85,7 @@ const Method& fournier_method() {
                        whole_option("evaluations", fournier::most_evaluations, 1, fournier::most_evaluations,
                                     "Evaluations of its error after which the fit of a texel stops."),
                        float_storage_option(), roughness_mean_option()},
-           .honours = map_effects_but({Effect::normal_layers}),
+           .honours = map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers}),
            .slow_precompute = true,
            .bakes_by_texel = true},
       .precompute = precompute,

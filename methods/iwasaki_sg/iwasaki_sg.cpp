@@ -37,7 +37,8 @@ const Method& iwasaki_sg_method() {
                .paper = "Iwasaki, Dobashi and Nishita 2012, Interactive Bi-scale Editing of Highly Glossy Materials, "
                         "ACM Transactions on Graphics 31(6)",
                .options = option_table(),
-               .honours = all_effects_but({Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
+               .honours = all_effects_but(
+                   {Effect::anisotropic_lobe, Effect::normal_layers, Effect::roughness_variation, Effect::multi_lobe}),
                .lobes_as_given = true,
                .sums_environment = true,
                .resolves_texels = false},

@@ -57,9 +57,14 @@ float spreadLambda(SlopeLobe lobe, vec3 w) {
 // Lambda of the texels' slopes and the base lobe's. A stretched base lobe is about the mean normal, where 1 / a^2 is
 // 2 v tan^2. The share makes it so, and a flat map has the base BRDF's own Lambda at any tilt.
 float lobeLambda(SlopeLobe lobe, vec3 w) {
-//? if roughness_stretched
+//? if roughness_stretched and anisotropic_lobe
+  vec2 sine = lobe.secant * inFacetFrame(w, lobe.axis).xy;
+  float base = dot(sine, baseCovariance(lobe.base) * sine);
+//? elif roughness_stretched
   vec3 sine = lobe.secant * cross(lobe.axis, w);
   float base = lobe.base * dot(sine, sine);
+//? elif anisotropic_lobe
+  float base = dot(w.xy, baseCovariance(lobe.base) * w.xy);
 //? else
   float base = lobe.base * dot(w.xy, w.xy);
 //? end

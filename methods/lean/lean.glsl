@@ -46,12 +46,21 @@ Effective effective(Footprints f) {
 
 float ndf(Effective e, vec3 h) { return slopeDensity(e.lobe, h); }
 
+// The geometry factor besides F and D in f * cos.
+float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
+//? if anisotropic_lobe
+  return stretchedGeometry(e.lobe.widths, e.round_lobe, e.lobe.axis, h, wi, wo);
+//? else
+  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
+//? end
+}
+
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo)) {
     vec3 h = halfVector(wi, wo);
-    r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo));
+    r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
   }
 //? if diffuse
   r.diffuse = diffuse(e.mean_normal, s, wi, wo);
@@ -65,7 +74,7 @@ int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
 NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
+  return factor(e, h, wi, wo);
 }
 
 vec3 meanNormal(Effective e) { return e.mean_normal; }

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "renderer/bake/facets.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint::ndf_atlas {
@@ -57,7 +58,9 @@ class NodeSums {
                                    return lobe_width({facets.distribution, a}) < lobe_width({facets.distribution, b});
                                  }) -
         facets.parameters.begin());
-    const double reach = lobe_reach(facets.lobe(widest), energy_outside);
+    Lobe lobe = facets.lobe(widest);
+    if (facets.anisotropy) lobe.parameter = facets.alphas(widest).along;
+    const double reach = lobe_reach(lobe, energy_outside);
     // Across the tilt the plane is up to sqrt(2) times as wide as the sphere above the horizon.
     half_edge_ = reach < 0.5 * std::numbers::pi ? 2.0 * std::numbers::sqrt2 * std::sin(0.5 * reach) : 4.0;
   }
@@ -74,6 +77,10 @@ class NodeSums {
       const std::size_t row = static_cast<std::size_t>(j) * static_cast<std::size_t>(lattice_.nodes.x);
       for (int i = low.x; i <= high.x; ++i) {
         const std::size_t node = row + static_cast<std::size_t>(i);
+        if (facets_.anisotropy) {
+          sums[node] += weight * stretched(facet, normal, directions_[node]);
+          continue;
+        }
         const glm::dvec3 d = directions_[node] - normal;
         sums[node] += peak * lobe_shape(lobe, 0.5 * glm::dot(d, d));
       }
@@ -81,6 +88,11 @@ class NodeSums {
   }
 
  private:
+  [[nodiscard]] double stretched(std::size_t facet, const glm::dvec3& n, const glm::dvec3& direction) const {
+    return anisotropic_density(facets_.distribution, facets_.alphas(facet), facets_.anisotropy->rotation,
+                               turned_with_normal(direction, {-n.x, -n.y, n.z}));
+  }
+
   const Facets& facets_;
   const Lattice& lattice_;
   std::vector<glm::dvec3> directions_;

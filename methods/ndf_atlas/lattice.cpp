@@ -40,6 +40,7 @@ double core_width(const Lobe& lobe) {
   return lobe.distribution == NormalDistribution::ggx ? 0.5 * lobe.parameter : lobe_width(lobe);
 }
 
+// Round lobes; of anisotropic ones those of the width across and along.
 struct Extremes {
   Lobe narrowest, widest;
 };
@@ -51,6 +52,10 @@ Extremes extremes_of(const Facets& facets) {
     if (lobe_width(lobe) < lobe_width(found.narrowest)) found.narrowest = lobe;
     if (lobe_width(lobe) > lobe_width(found.widest)) found.widest = lobe;
   }
+  if (!facets.anisotropy) return found;
+  const double strength = facets.anisotropy->strength;
+  found.narrowest.parameter = alphas_of_round(strength, found.narrowest.parameter).across;
+  found.widest.parameter = alphas_of_round(strength, found.widest.parameter).along;
   return found;
 }
 
@@ -62,7 +67,8 @@ std::optional<Facets> facets_of(const Material& material, bool rough) {
                 .height = normals.height,
                 .distribution = material.brdf.distribution,
                 .normals = unit_normals(normals),
-                .parameters = {static_cast<float>(lobe_of(material).parameter)}};
+                .parameters = {static_cast<float>(lobe_of(material).parameter)},
+                .anisotropy = material.anisotropy};
   if (!rough) return facets;
   const Image parameters = lobe_parameter_map_of(material);
   if (parameters.texel_count() == 1) {

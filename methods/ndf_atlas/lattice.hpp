@@ -15,12 +15,15 @@ struct Facets {
   int width = 0, height = 0;
   NormalDistribution distribution = NormalDistribution::blinn_phong;
   std::vector<glm::vec3> normals;  ///< unit, row by row; zero if invalid
-  std::vector<float> parameters;   ///< lobe parameter of each facet, or one for all
+  std::vector<float> parameters;   ///< lobe parameter of each facet, or one for all; of the round mean if anisotropic
+  std::optional<Anisotropy> anisotropy{};
 
   [[nodiscard]] bool is_valid(std::size_t i) const { return normals[i] != glm::vec3(0.0F); }
   [[nodiscard]] Lobe lobe(std::size_t i) const {
     return {distribution, static_cast<double>(parameters[parameters.size() == 1 ? 0 : i])};
   }
+  /// The widths of an anisotropic facet.
+  [[nodiscard]] Alphas alphas(std::size_t i) const { return alphas_of_round(anisotropy->strength, lobe(i).parameter); }
 };
 
 /// The facets of a material. `rough`: each has the lobe of the roughness texel above it. None if the roughness map does

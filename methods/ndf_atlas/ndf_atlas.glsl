@@ -141,9 +141,9 @@ float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) {
   Direction at = directionOf(h);
   float sum = 0.0;
   for (int i = 0; i < parts; ++i)
-    sum += partDensity(e.part[i], at) * geometryFactor(e.part[i].lobe, e.part[i].axis, h, wi, wo);
+    sum += partDensity(e.part[i], at) * baseGeometry(e.part[i].lobe, e.part[i].axis, h, wi, wo);
   vec3 facing = normalize(mix(e.axis, h, e.narrowing));
-  return e.lobe_share * sum + tabulatedDensity(e, h) * geometryFactor(e.lobe, facing, h, wi, wo);
+  return e.lobe_share * sum + tabulatedDensity(e, h) * baseGeometry(e.lobe, facing, h, wi, wo);
 }
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
@@ -157,7 +157,11 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if environment_light
+//? if environment_light and anisotropic_lobe
+int lobeCount(Effective e) { return parts * row_count; }
+
+NormalLobe normalLobe(Effective e, int i) { return rowLobe(surrounded[i / row_count], i % row_count); }
+//? elif environment_light
 int lobeCount(Effective e) { return parts; }
 
 // A round lobe with the same mean slope variance.
@@ -166,9 +170,11 @@ NormalLobe normalLobe(Effective e, int i) {
   lobe.base = surrounded[i].lobe;
   return lobe;
 }
+//? end
 
+//? if environment_light
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+  return baseGeometry(lobe.base, lobe.normal, h, wi, wo);
 }
 
 vec3 meanNormal(Effective e) { return e.mean_normal; }

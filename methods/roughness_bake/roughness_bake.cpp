@@ -167,7 +167,7 @@ const Method& roughness_bake_method() {
                                                       "Of preset=free: the most that is added to alpha^2."),
                                         "bake_cap"),
                        storage_option()},
-           .honours = map_effects_but({})},
+           .honours = map_effects_but({Effect::anisotropic_lobe})},
       .precompute = precompute,
       .shader = module_of(roughness_bake_glsl, "roughness_bake.glsl"),
       .roughness_mips = roughness_mips};

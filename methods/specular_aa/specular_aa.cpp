@@ -77,7 +77,7 @@ const Method& specular_aa_method() {
                         "What the roughness mips already contain: nothing, or what roughness_bake with this preset "
                         "bakes."),
                     storage_option()},
-               .honours = map_effects_but({}),
+               .honours = map_effects_but({Effect::anisotropic_lobe}),
                .screen_derivatives = true},
       .precompute = precompute,
       .shader = module_of(specular_aa_glsl, "specular_aa.glsl")};

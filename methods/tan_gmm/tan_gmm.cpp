@@ -154,7 +154,7 @@ const Method& tan_gmm_method() {
                           "the texture filter blends them.",
                .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering, Eurographics Symposium on Rendering",
                .options = option_table(),
-               .honours = map_effects_but({Effect::normal_layers}),
+               .honours = map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers}),
                .slow_precompute = true},
       .precompute = precompute,
       .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}, {"part_colours", false}}),

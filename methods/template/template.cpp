@@ -56,7 +56,8 @@ const Method& template_method() {
                .options = {number_option("share", 1.0, 0.0, 4.0,
                                          "Factor on the spread that is added to the lobe's slope variance per axis; "
                                          "0 leaves the base lobe as it is.")},
-               .honours = map_effects_but({Effect::normal_layers, Effect::roughness_variation})},
+               .honours =
+                   map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers, Effect::roughness_variation})},
       .precompute = precompute,
       .shader = module_of(template_glsl, "template.glsl")};
   return method;

@@ -36,7 +36,7 @@ const Method& toksvig_method() {
                            "diffuse", {"mean", "normalized"},
                            "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' "
                            "own while all face the light, or the renormalised one.")},
-           .honours = map_effects_but({})},
+           .honours = map_effects_but({Effect::anisotropic_lobe})},
       .precompute = precompute,
       .shader = module_of(toksvig_glsl, "toksvig.glsl")};
   return method;

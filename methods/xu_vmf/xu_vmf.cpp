@@ -225,7 +225,7 @@ const Method& xu_vmf_method() {
                           "the hemisphere.",
                .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Computer Graphics Forum 36(4)",
                .options = option_table(),
-               .honours = map_effects_but({Effect::normal_layers})},
+               .honours = map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers})},
       .precompute = precompute,
       .shader = module_of(xu_vmf_glsl, "xu_vmf.glsl"),
       .precompute_on = precompute_on,

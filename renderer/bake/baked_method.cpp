@@ -128,6 +128,8 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
                                           : prefilter(method, scene, i, baked.options, honoured, part, cache);
       if (auto note = storage_range_note(material, method.info, baked.options, honoured))
         prefiltered.notes.push_back(*std::move(note));
+      if (material.anisotropy && has(effects & ~method.info.honours, Effect::anisotropic_lobe))
+        prefiltered.notes.emplace_back("uses the round mean of the anisotropic base BRDF (docs/base-brdf.md)");
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {

@@ -162,6 +162,17 @@ std::vector<glm::vec4> facet_lobe_block(const Material& material) {
   return block;
 }
 
+glm::vec4 anisotropy_of(const Material& material) {
+  const Alphas alphas = alphas_of(material);
+  const double rotation = material.anisotropy.value_or(Anisotropy{}).rotation;
+  return glm::dvec4(alphas.along, alphas.across, std::cos(rotation), std::sin(rotation));
+}
+
+float squared_strength(const Material& material) {
+  const float strength = material.anisotropy.value_or(Anisotropy{}).strength;
+  return strength * strength;
+}
+
 std::vector<PaintFactors> paint_factors(const Material& material) {
   if (!material.microgeometry) return {{}};
   constexpr glm::vec3 least(1e-6F);  // a channel that is black in the mean is black in every paint

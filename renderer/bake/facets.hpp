@@ -21,6 +21,13 @@ namespace footprint {
 /// lobes, padded with zeros. Throws Error (usage): more lobes, or parameters out of range (docs/scenes.md).
 [[nodiscard]] std::vector<glm::vec4> facet_lobe_block(const Material& material);
 
+/// What anisotropy() of surface_material.glsl returns: alpha of the constant lobe along and across the direction of
+/// stretch, and the direction's x and y. Without anisotropy both alphas are the lobe's.
+[[nodiscard]] glm::vec4 anisotropy_of(const Material& material);
+
+/// The strength of anisotropy, squared; 0 without any.
+[[nodiscard]] float squared_strength(const Material& material);
+
 /// The factors of a patch's paint on the material's reflection. The material already includes their mean.
 struct PaintFactors {
   glm::vec3 specular{1.0F};  ///< reflectance at normal incidence

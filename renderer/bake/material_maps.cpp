@@ -44,15 +44,21 @@ Image roughness_map_of(const Material& material) {
         return lobe_roughness({distribution, parameter});
       });
     }
+    if (material.anisotropy) {
+      std::ranges::transform(roughness.texels, roughness.texels.begin(), [&](float across) {
+        const Lobe own = lobe_from_alpha(distribution, across * across);
+        return lobe_roughness({distribution, round_alpha(alphas_of(material, own.parameter))});
+      });
+    }
     return roughness;
   }
-  const bool own_lobe = material.lobe_parameter || !material.lobes.empty();
+  const bool own_lobe = material.lobe_parameter || !material.lobes.empty() || material.anisotropy;
   return Image(1, 1, 1, own_lobe ? lobe_roughness(lobe_of(material)) : material.roughness);
 }
 
 Image lobe_parameter_map_of(const Material& material) {
   if (width_map(material) == nullptr) return Image(1, 1, 1, static_cast<float>(lobe_of(material).parameter));
-  if (material.lobe_parameter_map) return material.lobe_parameter_map->image.decoded();
+  if (material.lobe_parameter_map && !material.anisotropy) return material.lobe_parameter_map->image.decoded();
   Image lobes = roughness_map_of(material);
   std::ranges::transform(lobes.texels, lobes.texels.begin(), [&](float roughness) {
     return static_cast<float>(lobe_from_alpha(material.brdf.distribution, roughness * roughness).parameter);

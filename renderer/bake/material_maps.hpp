@@ -17,7 +17,8 @@ namespace footprint {
 [[nodiscard]] Image layer_map_of(const Material& material);
 
 /// The perceptual roughness map of a material, one channel; without one: its constant, 1 x 1. A map of lobe parameters
-/// is converted to the roughness of the same lobes (`lobe_roughness`).
+/// is converted to the roughness of the same lobes (`lobe_roughness`), and an anisotropic lobe to a round one
+/// (`lobe_of`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
 
 /// The lobe parameters of that map, given or converted from roughness; one channel.

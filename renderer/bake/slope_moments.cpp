@@ -20,22 +20,31 @@ constexpr double default_steepest = 3.0;  // 71.6 degrees; methods/lean/README.m
 constexpr int moment_channels = 5;
 constexpr std::size_t weight_channel = 5;
 
+// Of the base lobe whose round mean has a slope variance, in the tangent frame of the surface. 0 stays 0.
+glm::dmat2 base_covariance(double variance, const Anisotropy& anisotropy) {
+  if (variance <= 0.0 || anisotropy.strength == 0.0F) return glm::dmat2(variance);
+  const Alphas alphas = alphas_of_round(anisotropy.strength, std::sqrt(2.0 * variance));
+  const double across = 0.5 * alphas.across * alphas.across, rotation = anisotropy.rotation;
+  const glm::dvec2 direction(std::cos(rotation), std::sin(rotation));
+  return glm::dmat2(across) + (0.5 * alphas.along * alphas.along - across) * glm::outerProduct(direction, direction);
+}
+
 // B, M and the weight of every texel; nothing but zeros where the weight is 0.
-Image texel_moments(const Image& normals, const Image& variance, double steepest) {
+Image texel_moments(const Image& normals, const Image& variance, double steepest, const Anisotropy& anisotropy) {
   Image out(normals.width, normals.height, moment_channels + 1);
   const std::size_t variance_step = variance.texel_count() == 1 ? 0 : 1;
   for (std::size_t i = 0; i < out.texel_count(); ++i) {
     const float* const n = &normals.texels[4 * i];
     if (n[3] <= 0.0F) continue;
     const glm::dvec2 b = slope_of(glm::normalize(glm::dvec3(n[0], n[1], n[2])), steepest);
-    const double v = variance.texels[i * variance_step];
+    const glm::dmat2 v = base_covariance(variance.texels[i * variance_step], anisotropy);
     float* const to = &out.texels[i * (weight_channel + 1)];
     to[slope_x] = static_cast<float>(b.x);
     to[slope_y] = static_cast<float>(b.y);
     // Of the rounded slope, so that M - B B^T of one texel is as near to 0 as rounding allows.
-    to[slope_xx] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_x] + v);
-    to[slope_xy] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_y]);
-    to[slope_yy] = static_cast<float>(static_cast<double>(to[slope_y]) * to[slope_y] + v);
+    to[slope_xx] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_x] + v[0][0]);
+    to[slope_xy] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_y] + v[0][1]);
+    to[slope_yy] = static_cast<float>(static_cast<double>(to[slope_y]) * to[slope_y] + v[1][1]);
     to[weight_channel] = n[3];
   }
   return out;
@@ -139,7 +148,8 @@ glm::dmat2 covariance(const SlopeMoments& moments) {
   return 0.5 * largest * glm::dmat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
 }
 
-std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance, double steepest) {
+std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance, double steepest,
+                                      const Anisotropy& anisotropy) {
   if (variance.texel_count() != 1 && (variance.width != normals.width || variance.height != normals.height)) {
     throw Error(
         ErrorKind::usage, "slope moments",
@@ -148,7 +158,7 @@ std::vector<Image> slope_moment_chain(const Image& normals, const Image& varianc
                     variance.width, variance.height, normals.width, normals.height),
         "use roughness=stretched or roughness=shading, or give both maps one size");
   }
-  return channels_of(weighted_mip_chain(texel_moments(normals, variance, steepest)),
+  return channels_of(weighted_mip_chain(texel_moments(normals, variance, steepest, anisotropy)),
                      {slope_x, slope_y, slope_xx, slope_xy, slope_yy});
 }
 
@@ -190,7 +200,8 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     const Image variance = in_moments ? variance_for_moments(material) : no_variance;
     Image normals = spread_over(normal_map_of(material), variance.width, variance.height);
     note_steep_texels(normals, "normal map", steepest, out);
-    const std::vector<Image> moments = slope_moment_chain(normals, variance, steepest);
+    const std::vector<Image> moments =
+        slope_moment_chain(normals, variance, steepest, material.anisotropy.value_or(Anisotropy{}));
     add_textures("slope", moments, stored.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(),
                  stored.variant, storage, normal_coordinates(material), out);
   }

@@ -106,6 +106,14 @@ void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, 
                             maps.material),
                 "convert the model to metallic-roughness, or leave --gltf out");
   }
+  if (old.contains("extensions") && old["extensions"].contains("KHR_materials_anisotropy")) {
+    throw Error(
+        ErrorKind::usage, source,
+        fmt::format("material `{}` is anisotropic (KHR_materials_anisotropy), and its baked roughness is that of "
+                    "round lobes",
+                    maps.material),
+        "take the extension off the model, or leave --gltf out");
+  }
   const Json normal = old.at("normalTexture");
   const Json& old_texture = document["textures"][normal["index"].get<std::size_t>()];
   const Json sampler = old_texture.contains("sampler") ? old_texture["sampler"] : Json();

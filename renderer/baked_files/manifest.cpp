@@ -46,6 +46,8 @@ const char* geometry_word(GeometryTerm geometry) {
       return "none";
     case GeometryTerm::tan:
       return "tan";
+    case GeometryTerm::ward:
+      return "ward";
     case GeometryTerm::smith:
       break;
   }
@@ -99,14 +101,16 @@ Json textures_json(const std::vector<PrefilteredTexture>& textures, const std::v
 }
 
 // The uniforms of a material: scalars, vectors, its lobe and, if there are several per facet, those.
-Json uniforms_json(const Material& material, const Prefiltered& prefiltered, bool several_lobes) {
+Json uniforms_json(const Material& material, const Prefiltered& prefiltered, const EffectSet& effects) {
   Json uniforms = Json::object();
-  uniforms["lobe_cutoff"] = {lobe_of(material).parameter, material.alpha_cutoff.value_or(-1.0F), 0.0, 0.0};
+  uniforms["lobe_cutoff"] = {lobe_of(material).parameter, material.alpha_cutoff.value_or(-1.0F), 0.0,
+                             squared_strength(material)};
+  if (has(effects, Effect::anisotropic_lobe)) uniforms["lobe_anisotropy"] = numbers(anisotropy_of(material));
   for (const auto& [name, value] : prefiltered.scalars) uniforms[name] = value;
   for (const auto& [name, values] : prefiltered.vectors) {
     for (std::size_t i = 0; i < values.size(); ++i) uniforms[fmt::format("{}[{}]", name, i)] = numbers(values[i]);
   }
-  if (!several_lobes) return uniforms;
+  if (!has(effects, Effect::multi_lobe)) return uniforms;
   uniforms["facet_lobe_count"] = material.lobes.size();
   for (std::size_t k = 0; k < material.lobes.size(); ++k) {
     const FacetLobe& lobe = material.lobes[k];
@@ -138,12 +142,12 @@ Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFil
   const Material& material = bake.scene.materials[index];
   const Prefiltered& prefiltered = bake.baked.materials[index];
   const EngineMaps engine = index < bake.engine.size() ? bake.engine[index] : EngineMaps();
-  const bool several_lobes = has(bake.effects & bake.baked.method->info.honours, Effect::multi_lobe);
+  const EffectSet effects = bake.effects & bake.baked.method->info.honours;
   std::vector<std::string> notes = prefiltered.notes;
   if (!engine.missing.empty()) notes.push_back(engine.missing);
   return {{"name", material.name},
           {"surface", surface_json(material, bake.effects)},
-          {"uniforms", uniforms_json(material, prefiltered, several_lobes)},
+          {"uniforms", uniforms_json(material, prefiltered, effects)},
           {"bytes", byte_count(prefiltered)},
           {"notes", notes},
           {"textures", textures_json(prefiltered.textures, files.textures)},

@@ -22,6 +22,7 @@ constexpr auto names = std::to_array<std::string_view>({"diffuse",
                                                         "normal_layers",
                                                         "roughness_variation",
                                                         "multi_lobe",
+                                                        "anisotropic_lobe",
                                                         "base_color_variation",
                                                         "vertex_color",
                                                         "metallic_variation",
@@ -178,6 +179,7 @@ std::vector<EffectDecision> map_effects(const Scene& scene) {
     return width_map(m) != nullptr && channel_varies(width_map(m)->image.decoded(), 0);
   };
   const auto has_lobes = [](const Material& m) { return !m.lobes.empty(); };
+  const auto stretched = [](const Material& m) { return m.anisotropy && m.anisotropy->strength > 0.0F; };
   const auto colored = [](const Material& m) { return m.base_color_map.has_value(); };
   const auto metallic_varies = [](const Material& m) {
     return metallic_map(m) != nullptr && channel_varies(metallic_map(m)->image.decoded(), 1);
@@ -193,6 +195,8 @@ std::vector<EffectDecision> map_effects(const Scene& scene) {
                  "roughness is constant over each material"),
           decide(Effect::multi_lobe, scene, has_lobes, "facets with lobes about axes of their own",
                  "every facet has one lobe, about its normal"),
+          decide(Effect::anisotropic_lobe, scene, stretched, "a lobe that is wider along one direction",
+                 "every lobe is round"),
           decide(Effect::base_color_variation, scene, colored, "a base-colour map", "no base-colour map"),
           vertex_color(scene),
           decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",

@@ -22,6 +22,7 @@ enum class Effect : std::size_t {
   normal_layers,          ///< a detail layer over the normal map
   roughness_variation,    ///< a map of roughness or of lobe parameters that is not constant
   multi_lobe,             ///< facets with several lobes, or one whose axis is not their normal
+  anisotropic_lobe,       ///< facets with a lobe that is wider along one direction
   base_color_variation,   ///< a base-colour map
   vertex_color,           ///< vertex colours, which multiply the base colour
   metallic_variation,     ///< a metallic map that is not constant

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "renderer/bake/facets.hpp"
 
 namespace footprint {
 namespace {
@@ -21,10 +24,32 @@ int cell_of(const glm::dvec3& n) {
   return static_cast<int>(cell.y) * cells_across + static_cast<int>(cell.x);
 }
 
+// The integral of an anisotropic lobe over the upper hemisphere, by slopes at even steps of azimuth and of the radius
+// of the round lobe that it is stretched from.
+double anisotropic_energy(NormalDistribution distribution, const Alphas& alphas, double rotation,
+                          const glm::dvec3& normal) {
+  constexpr int rings = 96, spokes = 64;
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  double sum = 0.0;
+  for (int i = 0; i < rings; ++i) {
+    const double w = (i + 0.5) / rings, radius = w / (1.0 - w);
+    for (int j = 0; j < spokes; ++j) {
+      const double azimuth = 2.0 * std::numbers::pi * (j + 0.5) / spokes;
+      const glm::dvec2 slope(alphas.along * radius * std::cos(azimuth), alphas.across * radius * std::sin(azimuth));
+      const glm::dvec3 own = glm::normalize(glm::dvec3(c * slope.x - s * slope.y, s * slope.x + c * slope.y, 1.0));
+      if (turned_with_normal(own, normal).z <= 0.0) continue;
+      const double area = radius / ((1.0 - w) * (1.0 - w));  // of the round lobe's slopes per dw and azimuth
+      sum += anisotropic_density(distribution, alphas, rotation, own) * own.z * own.z * own.z * area;
+    }
+  }
+  return sum * alphas.along * alphas.across * 2.0 * std::numbers::pi / (rings * spokes);
+}
+
 }  // namespace
 
-ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets)
-    : distribution_(distribution) {
+ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets,
+                           const std::optional<Anisotropy>& anisotropy)
+    : distribution_(distribution), anisotropy_(anisotropy) {
   std::vector<std::pair<int, std::size_t>> order(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i) order[i] = {cell_of(facets[i].normal), i};
   std::ranges::sort(order);
@@ -36,9 +61,9 @@ ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<We
     for (; i < order.size() && order[i].first == number; ++i) {
       const WeightedFacet& f = facets[order[i].second];
       const Lobe lobe{distribution, f.parameter};
-      facets_.push_back(
-          {f.normal, 0.5 * std::max(1.0 - glm::dot(f.normal, f.normal), 0.0), f.parameter, f.share * lobe_peak(lobe)});
-      support = std::max(support, lobe_support(lobe));
+      facets_.push_back({f.normal, 0.5 * std::max(1.0 - glm::dot(f.normal, f.normal), 0.0), f.parameter,
+                         anisotropy ? f.share : f.share * lobe_peak(lobe)});
+      support = std::max(support, lobe_support(anisotropy ? Lobe{distribution, alphas(facets_.back()).along} : lobe));
       cell.centre += f.normal;
     }
     cell.last = i;
@@ -50,7 +75,8 @@ ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<We
     cells_.push_back(cell);
   }
   const auto is_first = [&](const Facet& f) { return f.parameter == facets_.front().parameter; };
-  if (std::ranges::all_of(facets_, is_first)) profile_.emplace(Lobe{distribution, facets_.front().parameter});
+  if (!anisotropy && std::ranges::all_of(facets_, is_first))
+    profile_.emplace(Lobe{distribution, facets_.front().parameter});
 }
 
 template <class Shape>
@@ -61,6 +87,10 @@ double ReferenceNdf::density(const glm::dvec3& direction, const Shape& shape) co
     const double reach = cell.radius + cell.reach;
     if (glm::dot(from_centre, from_centre) > reach * reach) continue;
     for (std::size_t i = cell.first; i < cell.last; ++i) {
+      if (anisotropy_) {
+        sum += facets_[i].amplitude * stretched(facets_[i], direction);
+        continue;
+      }
       const glm::dvec3 d = direction - facets_[i].normal;
       sum += facets_[i].amplitude * shape(facets_[i], 0.5 * glm::dot(d, d) + facets_[i].slack);
     }
@@ -85,15 +115,28 @@ std::vector<double> ReferenceNdf::densities(std::span<const glm::vec3> direction
   return out;
 }
 
+Alphas ReferenceNdf::alphas(const Facet& facet) const {
+  return alphas_of_round(anisotropy_->strength, facet.parameter);
+}
+
+double ReferenceNdf::stretched(const Facet& facet, const glm::dvec3& direction) const {
+  const glm::dvec3 n = glm::normalize(facet.normal);
+  return anisotropic_density(distribution_, alphas(facet), anisotropy_->rotation,
+                             turned_with_normal(direction, {-n.x, -n.y, n.z}));
+}
+
+double ReferenceNdf::energy(const Facet& facet) const {
+  const Lobe lobe{distribution_, facet.parameter};
+  if (!anisotropy_) return facet.amplitude / lobe_peak(lobe) * lobe_energy(lobe, facet.normal.z);
+  return facet.amplitude *
+         anisotropic_energy(distribution_, alphas(facet), anisotropy_->rotation, glm::normalize(facet.normal));
+}
+
 double ReferenceNdf::expected_energy() const {
-  const auto energy_of = [&](const Facet& f) {
-    const Lobe lobe{distribution_, f.parameter};
-    return f.amplitude / lobe_peak(lobe) * lobe_energy(lobe, f.normal.z);
-  };
   return tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, facets_.size(), 256), 0.0,
       [&](const tbb::blocked_range<std::size_t>& part, double sum) {
-        for (std::size_t i = part.begin(); i < part.end(); ++i) sum += energy_of(facets_[i]);
+        for (std::size_t i = part.begin(); i < part.end(); ++i) sum += energy(facets_[i]);
         return sum;
       },
       [](double a, double b) { return a + b; });
@@ -101,7 +144,8 @@ double ReferenceNdf::expected_energy() const {
 
 Lobe ReferenceNdf::narrowest() const {
   const auto width = [&](const Facet& f) { return lobe_width({distribution_, f.parameter}); };
-  return {distribution_, std::ranges::min_element(facets_, {}, width)->parameter};
+  const Facet& narrowest = *std::ranges::min_element(facets_, {}, width);
+  return {distribution_, anisotropy_ ? alphas(narrowest).across : narrowest.parameter};
 }
 
 }  // namespace footprint

@@ -80,6 +80,10 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].lobes = {{.axis = {0.6F, 0.0F, 0.8F}, .parameter = 0.4F, .weight = 0.5F},
                                {.axis = {-0.6F, 0.0F, 0.8F}, .parameter = 0.3F, .weight = 0.5F}};
      }},
+    {Effect::anisotropic_lobe, "facetAlphas",
+     [](Scene& s) {
+       s.materials[0].anisotropy = Anisotropy{0.7F, 0.4F};
+     }},
     {Effect::base_color_variation, "base_color_map",
      [](Scene& s) {
        s.materials[0].metallic = 1.0F;

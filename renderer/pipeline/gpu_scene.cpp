@@ -63,11 +63,16 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   if (!specular_varies) specular *= glm::make_vec3(specular_map_of(material).texels.data());
   std::vector<glm::vec4> block{material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
                                glm::vec4(lobe_of(material).parameter, material.alpha_cutoff.value_or(never_cut),
-                                         material.unlit ? 1.0F : 0.0F, 0.0F)};
+                                         material.unlit ? 1.0F : 0.0F, squared_strength(material))};
   const std::array slots{normal_coordinates(material), roughness_coordinates(material),
                          base_color_coordinates(material), layer_coordinates(material)};
   for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
-  for (const TextureCoordinates& slot : slots) block.push_back(offset_and_set(slot));
+  const bool anisotropic = has(effects, Effect::anisotropic_lobe);
+  const glm::vec4 anisotropy = anisotropic ? anisotropy_of(material) : glm::vec4(0.0F);
+  for (int i = 0; i < 4; ++i) {
+    block.push_back(offset_and_set(slots.at(static_cast<std::size_t>(i))));
+    block.back().w = anisotropy[i];
+  }
   if (specular_varies) {
     block.push_back(linear_part(specular_coordinates(material)));
     block.push_back(offset_and_set(specular_coordinates(material)));

@@ -21,7 +21,8 @@ std::string functions_of(const BaseBrdf& brdf) {
   ShaderVariant variant;
   variant.brdf = brdf;
   variant.effects.set();
-  variant.effects.reset(static_cast<std::size_t>(Effect::multi_lobe));  // facet_lobes_test.cpp has it
+  for (const Effect own_test : {Effect::multi_lobe, Effect::anisotropic_lobe})  // facet_lobes_test.cpp and its like
+    variant.effects.reset(static_cast<std::size_t>(own_test));
   return shared_functions(shader_flags(variant, Options({}, {}, "test")));
 }
 

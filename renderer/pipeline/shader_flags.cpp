@@ -69,6 +69,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"distribution_vmf", is_distribution<NormalDistribution::vmf>},
     {"geometry_none", is_geometry<GeometryTerm::none>},
     {"geometry_tan", is_geometry<GeometryTerm::tan>},
+    {"geometry_ward", is_geometry<GeometryTerm::ward>},
     {"geometry_smith", is_geometry<GeometryTerm::smith>},
     {"fresnel_schlick", [](const Variant& v) { return v.brdf.fresnel == FresnelTerm::schlick; }},
     {"sampling_frame", is_sampling<Sampling::frame>},

@@ -37,13 +37,8 @@ std::vector<Map*> maps_in(AnyMaterial& material) {
   return maps;
 }
 
-}  // namespace
-
-std::vector<TextureMap*> maps_of(Material& material) { return maps_in<TextureMap>(material); }
-
-std::vector<const TextureMap*> maps_of(const Material& material) { return maps_in<const TextureMap>(material); }
-
-Lobe lobe_of(const Material& material) {
+// The lobe of a constant roughness, across the direction of anisotropy if there is one.
+Lobe own_lobe_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (material.lobe_parameter) return {distribution, *material.lobe_parameter};
   if (!material.lobes.empty()) return lobe_from_variance(distribution, variance_about_normal(material));
@@ -51,6 +46,24 @@ Lobe lobe_of(const Material& material) {
   if (map != nullptr && material.lobe_parameter_map) return {distribution, map->image.first().front()};
   const float roughness = map != nullptr ? map->image.first().front() : material.roughness;
   return lobe_from_alpha(distribution, roughness * roughness);
+}
+
+}  // namespace
+
+std::vector<TextureMap*> maps_of(Material& material) { return maps_in<TextureMap>(material); }
+
+std::vector<const TextureMap*> maps_of(const Material& material) { return maps_in<const TextureMap>(material); }
+
+Alphas alphas_of(const Material& material, double alpha) {
+  return anisotropic_alphas(material.anisotropy.value_or(Anisotropy{}).strength, alpha);
+}
+
+Alphas alphas_of(const Material& material) { return alphas_of(material, own_lobe_of(material).parameter); }
+
+Lobe lobe_of(const Material& material) {
+  const Lobe own = own_lobe_of(material);
+  if (!material.anisotropy) return own;
+  return {own.distribution, static_cast<float>(round_alpha(alphas_of(material, own.parameter)))};
 }
 
 }  // namespace footprint

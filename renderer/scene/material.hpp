@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/lobes/anisotropic_lobe.hpp"
 #include "renderer/lobes/lobe.hpp"
 #include "renderer/scene/map_texels.hpp"
 
@@ -21,11 +22,11 @@ enum class NormalChannels {
 
 struct Microgeometry;
 
-enum class GeometryTerm { none, tan, smith };
+enum class GeometryTerm { none, tan, smith, ward };
 enum class FresnelTerm { none, schlick };
 
 /// The base BRDF of one facet, shared by all methods and the reference (docs/base-brdf.md). f * cos is F D (none),
-/// F D / (n.v) (tan) or F D G2 / (4 n.v) with height-correlated G2 (smith).
+/// F D / (n.v) (tan), F D G2 / (4 n.v) with height-correlated G2 (smith) or F D (n.l) / (4 (v.h)^2) (ward).
 struct BaseBrdf {
   NormalDistribution distribution = NormalDistribution::ggx;
   GeometryTerm geometry = GeometryTerm::smith;
@@ -94,6 +95,9 @@ struct Material {
   std::optional<float> lobe_parameter;
   /// Replaces the lobe about the normal, and all widths; empty: one lobe about the normal.
   std::vector<FacetLobe> lobes;
+  /// Stretches the lobe about the normal (beckmann, ggx), whose widths then are those across the direction; excludes
+  /// `lobes` and `microgeometry`.
+  std::optional<Anisotropy> anisotropy;
 
   std::optional<TextureMap> base_color_map;  ///< RGBA, linear
   /// 2 channels: roughness and metallic (0..1), already times the factors.
@@ -127,9 +131,17 @@ struct Material {
   return material.metallic_roughness_map ? &*material.metallic_roughness_map : nullptr;
 }
 
-/// The lobe of a material with constant roughness. For a material with several lobes: one about the normal with their
-/// slope variance about it, for methods without `multi_lobe`.
+/// The round lobe of a material with constant roughness. For a material with several lobes: one about the normal with
+/// their slope variance about it, for methods without `multi_lobe`. For an anisotropic lobe: the one with its mean
+/// slope variance over directions, for methods without `anisotropic_lobe`.
 [[nodiscard]] Lobe lobe_of(const Material& material);
+
+/// The alphas of an anisotropic lobe. Both are `alpha` if the material has none.
+/// alpha: the material's own, across the direction of anisotropy.
+[[nodiscard]] Alphas alphas_of(const Material& material, double alpha);
+
+/// Those of a material with constant roughness.
+[[nodiscard]] Alphas alphas_of(const Material& material);
 
 /// The map of metalness, in its second channel. Null if it is constant.
 [[nodiscard]] inline const TextureMap* metallic_map(const Material& material) {

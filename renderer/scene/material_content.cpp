@@ -88,6 +88,11 @@ class Counter {
     add_all(axis, parameter, weight);
   }
 
+  void add(const Anisotropy& anisotropy) {
+    const auto& [strength, rotation] = anisotropy;
+    add_all(strength, rotation);
+  }
+
   void add(const ClearCoat& coat) {
     const auto& [weight, roughness, weight_map, roughness_map, normal_map] = coat;
     add_all(weight, roughness, weight_map, roughness_map, normal_map);
@@ -114,10 +119,10 @@ class Counter {
   }
 
   void add(const Material& material) {
-    const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes,
+    const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy,
                  base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat,
                  share, alpha_cutoff, double_sided, unlit, microgeometry] = material;
-    add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes);
+    add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy);
     add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat);
     add_all(share, alpha_cutoff, double_sided, unlit, microgeometry);
   }

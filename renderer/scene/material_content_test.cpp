@@ -30,6 +30,7 @@ Material whole_material() {
   material.name = "a material";
   material.lobe_parameter = 2.0F;
   material.lobes = {{}, {}};
+  material.anisotropy = Anisotropy{};
   for (auto* const map : {&material.base_color_map, &material.metallic_roughness_map, &material.lobe_parameter_map,
                           &material.specular_map, &material.normal_map, &material.layer_map})
     *map = map_of(0.5F);
@@ -68,6 +69,9 @@ std::vector<Change> changes() {
                           [](Material& m) { m.lobes[1].axis.x = 0.5F; },
                           [](Material& m) { m.lobes[1].parameter = 0.5F; },
                           [](Material& m) { m.lobes[1].weight = 0.5F; },
+                          [](Material& m) { m.anisotropy.reset(); },
+                          [](Material& m) { m.anisotropy->strength = 0.5F; },
+                          [](Material& m) { m.anisotropy->rotation = 0.5F; },
                           [](Material& m) { m.coat.reset(); },
                           [](Material& m) { m.coat->weight = 0.5F; },
                           [](Material& m) { m.coat->roughness = 0.5F; },

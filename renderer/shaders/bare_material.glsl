@@ -1,5 +1,9 @@
 // The material as uniforms of a module: replaces surface_material.glsl in programs of others.
-uniform vec4 lobe_cutoff;  // x: the base lobe's parameter, where it does not vary
+uniform vec4 lobe_cutoff;  // x: the base lobe's parameter, where it does not vary; w: squared strength of anisotropy
+//? if anisotropic_lobe
+uniform vec4 lobe_anisotropy;  // alpha along and across its direction, the direction in the facet's tangent plane
+vec4 anisotropy() { return lobe_anisotropy; }
+//? end
 //? if multi_lobe
 struct FacetLobe {
   vec3 axis;  // z is the facet's normal

@@ -51,13 +51,55 @@ struct SlopeLobe {
   float secant;   // 1 / axis.z
   mat2 shape;     // stretched: offsets from B to offsets of the base lobe; Gaussian: inverse covariance
   float scale;    // stretched: determinant of `shape`; Gaussian: the peak of the density of slopes
+//? if anisotropic_lobe
+  mat2 widths;    // twice the covariance of slopes about `axis`, base lobe included: squared alphas
+//? end
 };
+
+//? if anisotropic_lobe
+// Alpha along and across the direction of the base lobe whose round mean has a slope variance, as far as the moments do
+// not include it.
+vec2 baseAlphas(float variance) {
+//? if normal_variation and roughness_moments
+  return vec2(sqrt(2.0 * variance));
+//? else
+  return facetAlphas(lobeFromVariance(variance));
+//? end
+}
+
+// The covariance of the slopes of that lobe about a texel's own normal.
+mat2 baseCovariance(float variance) {
+  vec2 alphas = baseAlphas(variance);
+  return 0.5 * inFacetAxes(alphas.x * alphas.x, alphas.y * alphas.y);
+}
+
+//? end
 
 //? if roughness_stretched
 // The base lobe about `axis`, stretched by the linear map of slopes that takes its covariance W = v J J^T to the
 // footprint's S + W. `shape` is the inverse of that map, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v.
 // The square root of a 2 x 2 matrix is X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s. det X = 1 + tr + det of the
 // rest is a sum without cancellation.
+//? if anisotropic_lobe
+// W = J V J with the covariance V of an anisotropic lobe: the map is J N X^1/2 (J N)^-1 with N = (V / v)^1/2 and X = 1 +
+// (J N)^-1 S (J N)^-T / v, which leaves the base lobe of equal slopes as it is.
+SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
+  float q = sqrt(1.0 + dot(mean, mean));
+  mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
+  mat2 local = inverse_jacobian * spread * inverse_jacobian;
+  vec2 deviations = baseAlphas(variance) * inversesqrt(2.0 * variance);
+  mat2 narrowed = inFacetAxes(1.0 / deviations.x, 1.0 / deviations.y);
+  mat2 ratio = narrowed * local * narrowed / variance;
+  float trace = ratio[0][0] + ratio[1][1];
+  float s = sqrt(1.0 + trace + determinantOfCovariance(ratio));
+  float t = sqrt(2.0 + trace + 2.0 * s);
+  mat2 inverse_root = (adjugate(mat2(1.0) + ratio) + mat2(s)) / (s * t);
+  mat2 widened = inFacetAxes(deviations.x, deviations.y);
+  return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
+                   slopeJacobian(mean, q) * widened * inverse_root * narrowed * inverse_jacobian, 1.0 / s,
+                   2.0 * (local + baseCovariance(variance)));
+}
+//? else
 SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   float q = sqrt(1.0 + dot(mean, mean));
   mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
@@ -70,13 +112,14 @@ SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   return SlopeLobe(mean, spread, variance, variance * (1.0 + 0.5 * trace), normalOfSlope(mean), q,
                    slopeJacobian(mean, q) * inverse_root * inverse_jacobian, 1.0 / s);
 }
+//? end
 
 // Density over solid angle: D(h) dh = D_base(h') dh' with dh = h_z^3 db, which preserves the energy of the base lobe.
 float slopeDensity(SlopeLobe e, vec3 h) {
   float cosine = max(h.z, smallest_slope_cosine);
   vec3 base = normalOfSlope(e.mean + e.shape * (-h.xy / cosine - e.mean));
   float ratio = base.z / cosine;
-  return lobeDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
+  return baseDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
 }
 //? else
 // A Gaussian over slopes with covariance S + v (Olano and Baker 2010); only the slope variance v of the base lobe
@@ -87,9 +130,20 @@ SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
   mat2 local = inverse_jacobian * spread * inverse_jacobian;
   float least = max(variance, 1e-7 * (1.0 + slope2));  // below it, 32-bit moments are rounding
+//? if anisotropic_lobe
+  vec2 alphas = max(baseAlphas(variance), sqrt(2e-7 * (1.0 + slope2)));
+  mat2 base = 0.5 * inFacetAxes(alphas.x * alphas.x, alphas.y * alphas.y);
+  mat2 both = spread + base;
+  // det (S + V) as a sum without cancellation: det S + det V + tr (adj S V).
+  float determinant = determinantOfCovariance(spread) + 0.25 * alphas.x * alphas.x * alphas.y * alphas.y +
+                      max(dot(adjugate(spread)[0], base[0]) + dot(adjugate(spread)[1], base[1]), 0.0);
+  return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
+                   adjugate(both) / determinant, 1.0 / (2.0 * pi * sqrt(determinant)), 2.0 * (local + base));
+//? else
   float determinant = least * (least + spread[0][0] + spread[1][1]) + determinantOfCovariance(spread);
   return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
                    adjugate(spread + mat2(least)) / determinant, 1.0 / (2.0 * pi * sqrt(determinant)));
+//? end
 }
 
 // p22 / h_z^3: density over solid angle (dh = h_z^3 db).
@@ -113,11 +167,20 @@ struct LobeRow {
 
 LobeRow lobeRow(SlopeLobe e) {
   mat2 inverse_jacobian = inverseSlopeJacobian(e.mean, e.secant);
+//? if anisotropic_lobe
+  mat2 local = 0.5 * e.widths;
+  float alpha = baseAlphas(e.base).y;
+  float narrowest = 0.5 * alpha * alpha;
+  float base = 0.0;  // `local` includes it
+//? else
   mat2 local = inverse_jacobian * e.spread * inverse_jacobian;
+  float narrowest = e.base;
+  float base = e.base;
+//? end
   vec2 deviator = vec2(0.5 * (local[0][0] - local[1][1]), local[0][1]);
   float radius = length(deviator);
-  float middle = e.base + 0.5 * (local[0][0] + local[1][1]);
-  float across = max(middle - radius, max(e.base, 1e-7));
+  float middle = base + 0.5 * (local[0][0] + local[1][1]);
+  float across = max(middle - radius, max(narrowest, 1e-7));
   float ratio = (middle + radius) / across;
   if (ratio < 1.69) return LobeRow(0, e.breadth, vec2(0.0));
   vec2 along = deviator.x >= 0.0 ? vec2(radius + deviator.x, deviator.y) : vec2(deviator.y, radius - deviator.x);

@@ -46,6 +46,26 @@ vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
   return frameAbout(n) * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - tilt);
 }
 
+//? if anisotropic_lobe
+// Slopes of the round lobe of alpha 1, stretched along the axes of the facet.
+vec3 drawnBaseNormal(float lobe, vec3 n, vec2 u) {
+  float left = max(1.0 - u.x, 1e-7);
+//? if distribution_ggx
+  float tangent = sqrt((1.0 - left) / left);
+//? else
+  float tangent = sqrt(-log(left));
+//? end
+  float azimuth = 2.0 * pi * u.y;
+  vec2 slope = facetAlphas(lobe) * tangent * vec2(cos(azimuth), sin(azimuth));
+  vec2 d = anisotropy().zw;
+  return turnedWithNormal(normalize(vec3(slope.x * d + slope.y * vec2(-d.y, d.x), 1.0)), n);
+}
+float drawnBaseDensity(float lobe, vec3 n, vec3 h) { return baseDensity(lobe, n, h) * max(dot(n, h), 0.0); }
+//? else
+vec3 drawnBaseNormal(float lobe, vec3 n, vec2 u) { return drawnNormal(lobe, n, u); }
+float drawnBaseDensity(float lobe, vec3 n, vec3 h) { return drawnDensity(lobe, n, h); }
+//? end
+
 //? if multi_lobe
 float facetWeight() {
   float sum = 0.0;
@@ -64,7 +84,7 @@ vec3 drawnFacet(Facets f, vec3 u) {
     return drawnNormal(widenedLobe(k, f.spread), turnedWithNormal(facet_lobes[k].axis, f.normal), u.xy);
   }
 //? end
-  return drawnNormal(f.lobe, f.normal, u.xy);
+  return drawnBaseNormal(f.lobe, f.normal, u.xy);
 }
 
 float drawnFacetDensity(Facets f, vec3 h) {
@@ -78,5 +98,5 @@ float drawnFacetDensity(Facets f, vec3 h) {
     return sum / facetWeight();
   }
 //? end
-  return drawnDensity(f.lobe, f.normal, h);
+  return drawnBaseDensity(f.lobe, f.normal, h);
 }

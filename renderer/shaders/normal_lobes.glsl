@@ -41,18 +41,48 @@ NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
 //? end
 }
 
+//? if anisotropic_lobe
+// A row of round lobes for a stretched one, along its longer axis and as wide as it is across: Gaussian weights at even
+// steps up to 2.1 standard deviations, with the same variance.
+const int half_row = 4;
+const int row_count = 2 * half_row + 1;
+
+// widths: squared alphas in the frame of the facets with the normal `n`. k: below row_count.
+NormalLobe lobeOfWidths(mat2 widths, vec3 n, int k, float share) {
+  vec2 deviator = vec2(0.5 * (widths[0][0] - widths[1][1]), widths[0][1]);
+  float radius = length(deviator);
+  float across = max(0.5 * (widths[0][0] + widths[1][1]) - radius, smallest_alpha * smallest_alpha);
+  vec2 along = deviator.x >= 0.0 ? vec2(radius + deviator.x, deviator.y) : vec2(deviator.y, radius - deviator.x);
+  float x = float(k - half_row);
+  vec2 slope = along * (0.5578 * x * sqrt(radius) / max(length(along), 1e-12));
+  float deviations = 2.1 / float(half_row) * x;
+  vec3 axis = turnedWithNormal(normalize(vec3(slope, 1.0)), n);
+  NormalLobe lobe = baseNormalLobe(axis, lobeFromAlpha(sqrt(across)), share * exp(-0.5 * deviations * deviations) / 4.6941);
+  lobe.normal = n;
+  return lobe;
+}
+//? end
+
 // The lobes of facets with a `share` of the footprint.
+//? if anisotropic_lobe
+int baseLobeCount() { return row_count; }
+NormalLobe baseLobeOf(Facets f, int k, float share) { return lobeOfWidths(squaredWidths(f.lobe), f.normal, k, share); }
+//? else
+int baseLobeCount() { return 1; }
+NormalLobe baseLobeOf(Facets f, int k, float share) { return baseNormalLobe(f.normal, f.lobe, share); }
+//? end
+
 //? if multi_lobe
-int facetLobeCount() { return max(facet_lobe_count, 1); }
+int facetLobeCount() { return facet_lobe_count == 0 ? baseLobeCount() : facet_lobe_count; }
 
 NormalLobe facetNormalLobe(Facets f, int k, float share) {
-  if (facet_lobe_count == 0) return baseNormalLobe(f.normal, f.lobe, share);
+  if (facet_lobe_count == 0) return baseLobeOf(f, k, share);
   vec3 axis = turnedWithNormal(facet_lobes[k].axis, f.normal);
   NormalLobe lobe = baseNormalLobe(axis, widenedLobe(k, f.spread), share * facet_lobes[k].weight);
   lobe.normal = f.normal;
   return lobe;
 }
 //? else
-int facetLobeCount() { return 1; }
-NormalLobe facetNormalLobe(Facets f, int k, float share) { return baseNormalLobe(f.normal, f.lobe, share); }
+int facetLobeCount() { return baseLobeCount(); }
+NormalLobe facetNormalLobe(Facets f, int k, float share) { return baseLobeOf(f, k, share); }
 //? end

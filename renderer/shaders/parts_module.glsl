@@ -27,13 +27,13 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     Direction at = directionOf(h);
 //? if part_colours and specular_joint and specular_variation
     for (int i = 0; i < parts; ++i) {
-      r.specular += partDensity(e.part[i], at) * geometryFactor(e.part[i].lobe, e.part[i].axis, h, wi, wo) *
+      r.specular += partDensity(e.part[i], at) * baseGeometry(e.part[i].lobe, e.part[i].axis, h, wi, wo) *
                     fresnelTerm(s.f0 * e.tint[i], wi, wo);
     }
 //? else
     float sum = 0.0;
     for (int i = 0; i < parts; ++i)
-      sum += partDensity(e.part[i], at) * geometryFactor(e.part[i].lobe, e.part[i].axis, h, wi, wo);
+      sum += partDensity(e.part[i], at) * baseGeometry(e.part[i].lobe, e.part[i].axis, h, wi, wo);
     r.specular = fresnelTerm(s.f0, wi, wo) * sum;
 //? end
   }
@@ -43,7 +43,11 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if environment_light
+//? if environment_light and anisotropic_lobe
+int lobeCount(Effective e) { return parts * row_count; }
+
+NormalLobe normalLobe(Effective e, int i) { return rowLobe(e.part[i / row_count], i % row_count); }
+//? elif environment_light
 int lobeCount(Effective e) { return parts; }
 
 // A round lobe with the same mean slope variance.
@@ -52,9 +56,11 @@ NormalLobe normalLobe(Effective e, int i) {
   lobe.base = e.part[i].lobe;
   return lobe;
 }
+//? end
 
+//? if environment_light
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, lobe.axis, h, wi, wo);
+  return baseGeometry(lobe.base, lobe.normal, h, wi, wo);
 }
 
 vec3 meanNormal(Effective e) { return e.mean_normal; }

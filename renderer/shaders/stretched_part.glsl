@@ -4,13 +4,20 @@
 
 struct Part {
   vec2 mean;
+//? if anisotropic_lobe
+  mat2 shrink;
+//? else
   vec3 shrink;    // xx, xy, yy of A: distances from the mean to those of the base lobe
+//? end
   float metric;   // 1 + |mean|^2
   float scale;    // share times det A, and what goes below the horizon; 0: the part is not there
   vec3 axis;
   float share;    // of the footprint
   float lobe;     // parameter of a facet's lobe
   float breadth;  // slope variance per axis about `axis`, a facet's lobe included
+//? if anisotropic_lobe
+  mat2 widths;    // squared alphas of both about `axis`
+//? end
 };
 
 struct Direction {
@@ -24,7 +31,12 @@ Direction directionOf(vec3 h) {
 }
 
 Part absentPart() {
+//? if anisotropic_lobe
+  return Part(vec2(0.0), mat2(0.0), 1.0, 0.0, vec3(0.0, 0.0, 1.0), 0.0, lobe_cutoff.x, 1.0,
+              mat2(1.0));
+//? else
   return Part(vec2(0.0), vec3(0.0), 1.0, 0.0, vec3(0.0, 0.0, 1.0), 0.0, lobe_cutoff.x, 1.0);
+//? end
 }
 
 //? if distribution_ggx
@@ -49,12 +61,26 @@ float tailsGivenBack(float lobe, float s) { return 1.0; }
 Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
   float metric = 1.0 + dot(mean, mean);
   vec3 ratio = spread / (0.25 * variance * metric * metric);
+//? if anisotropic_lobe
+  // A = N X^(-1/2) N^-1 with the covariance v N^2 of an anisotropic lobe, and X = I + N^-1 spread N^-1 / w. The projection
+  // turns nothing, because a facet's direction turns by the shortest rotation.
+  mat2 widths = 2.0 * variance * mat2(ratio.x, ratio.y, ratio.y, ratio.z) + squaredWidths(lobe);
+  vec2 deviations = facetAlphas(lobe) * inversesqrt(2.0 * variance);
+  mat2 narrowed = inFacetAxes(1.0 / deviations.x, 1.0 / deviations.y);
+  mat2 own = narrowed * mat2(ratio.x, ratio.y, ratio.y, ratio.z) * narrowed;
+  ratio = vec3(own[0][0], own[0][1], own[1][1]);
+//? end
   float trace = ratio.x + ratio.z;
   float s = sqrt(1.0 + trace + max(ratio.x * ratio.z - ratio.y * ratio.y, 0.0));
   float t = sqrt(2.0 + trace + 2.0 * s);
   vec3 shrink = vec3(1.0 + ratio.z + s, -ratio.y, 1.0 + ratio.x + s) / (s * t);
   vec3 axis = vec3(2.0 * mean, 2.0 - metric) / metric;
+//? if anisotropic_lobe
+  mat2 both = inFacetAxes(deviations.x, deviations.y) * mat2(shrink.x, shrink.y, shrink.y, shrink.z) * narrowed;
+  return Part(mean, both, metric, share / s * tailsGivenBack(lobe, s), axis, share, lobe, 0.25 * (widths[0][0] + widths[1][1]), widths);
+//? else
   return Part(mean, shrink, metric, share / s * tailsGivenBack(lobe, s), axis, share, lobe, variance * (1.0 + 0.5 * trace));
+//? end
 }
 
 //? if diffuse
@@ -109,6 +135,13 @@ float lobeAt(float alpha, float u) {
 
 // D(h) dh = D_base(h') dh' with p(h') = mean + A (p(h) - mean), which preserves the energy of the base lobe.
 float partDensity(Part part, Direction at) {
+//? if anisotropic_lobe
+  if (part.scale <= 0.0) return 0.0;
+  vec2 p = part.mean + part.shrink * (at.p - part.mean);
+  float metric = 1.0 + dot(p, p);
+  float ratio = at.metric / metric;
+  return part.scale * ratio * ratio * baseDensity(part.lobe, part.axis, vec3(2.0 * p, 2.0 - metric) / metric);
+//? else
   countLobes(1);
   vec2 d = at.p - part.mean;
   d = vec2(dot(part.shrink.xy, d), dot(part.shrink.yz, d));
@@ -116,4 +149,14 @@ float partDensity(Part part, Direction at) {
   float metric = 1.0 + dot(p, p);
   float ratio = at.metric / metric;
   return part.scale * ratio * ratio * lobeAt(part.lobe, 2.0 * dot(d, d) / (metric * part.metric));
+//? end
 }
+
+//? if environment_light and anisotropic_lobe
+// Lobe k of the row that stands for a part under an environment.
+NormalLobe rowLobe(Part part, int k) {
+  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);
+  lobe.base = part.lobe;
+  return lobe;
+}
+//? end

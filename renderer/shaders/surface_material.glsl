@@ -10,9 +10,9 @@ struct FacetLobe {
 layout(std140, binding = 0) uniform MaterialBlock {
   vec4 base_color_factor;
   vec4 dielectric_specular_metallic;
-  vec4 lobe_cutoff;    // lobe parameter, alpha cutoff, 1 if unlit
+  vec4 lobe_cutoff;    // lobe parameter, alpha cutoff, 1 if unlit, squared strength of anisotropy
   vec4 uv_linear[4];   // slots normal, roughness, base_color, layer: columns d/du, d/dv
-  vec4 uv_offset_set[4];
+  vec4 uv_offset_set[4];  // w: see anisotropy()
 //? if specular_variation
   vec4 specular_uv_linear;
   vec4 specular_uv_offset_set;
@@ -31,3 +31,7 @@ layout(std140, binding = 0) uniform MaterialBlock {
   FacetLobe facet_lobes[most_facet_lobes];
 //? end
 };
+//? if anisotropic_lobe
+// Alpha along and across the direction of anisotropy, and that direction in the facet's tangent plane.
+vec4 anisotropy() { return vec4(uv_offset_set[0].w, uv_offset_set[1].w, uv_offset_set[2].w, uv_offset_set[3].w); }
+//? end

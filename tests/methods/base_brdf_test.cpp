@@ -1,5 +1,5 @@
-// Base BRDFs of several lobes and of maps, by every method. A method that honours them equals `direct` where nothing
-// needs filtering, and keeps the reference's energy over a footprint.
+// Base BRDFs of several lobes, of anisotropic lobes and of maps, by every method. A method that honours them equals
+// `direct` where nothing needs filtering, and keeps the reference's energy over a footprint.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -79,6 +79,56 @@ TEST_P(EveryMethodsBaseBrdf, SeveralLobesStayFiniteAtTheLimits) {
   }
 }
 
+constexpr std::array<BaseBrdf, 3> stretched_brdfs = {{
+    {NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, true},
+    {NormalDistribution::beckmann, GeometryTerm::smith, FresnelTerm::none, true},
+    {NormalDistribution::beckmann, GeometryTerm::ward, FresnelTerm::schlick, false},
+}};
+
+// Methods without the effect have the round mean, so their images are those of a round material.
+TEST_P(EveryMethodsBaseBrdf, AnisotropicLobesAreDirectsOnAConstantMapOrTheirRoundMean) {
+  for (const BaseBrdf& brdf : stretched_brdfs) {
+    for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(0.28F, 0, 0.96F)}) {
+      Image normals = constant_normals(16, 16, normal);
+      normals.at(0, 0)[0] += 2e-5F;  // keeps a flat map from being left out
+      Scene scene = square_scene(normals, {.brdf = brdf, .specular = glm::vec3(0.5F)});
+      Material& material = scene.materials[0];
+      material.lobe_parameter = 0.2F;
+      Scene round = scene;
+      material.anisotropy = Anisotropy{0.6F, 0.5F};
+      round.materials[0].lobe_parameter = static_cast<float>(lobe_of(material).parameter);
+      TestRenderer renderer(scene, {24, 24});
+      TestRenderer round_renderer(round, {24, 24});
+      for (const double distance : {0.05, 4.0}) {
+        if (honours(Effect::anisotropic_lobe)) {
+          EXPECT_LT(difference_from_direct(renderer, distance), 1e-3) << distance;
+        } else {
+          const Image picture = renderer.frame(*GetParam(), {}, {}, 0, distance);
+          EXPECT_EQ(picture.texels, round_renderer.frame(*GetParam(), {}, {}, 0, distance).texels) << distance;
+          EXPECT_GT(difference_from_direct(renderer, distance), 0.02) << distance;
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EveryMethodsBaseBrdf, AnisotropicLobesStayFiniteAtTheLimits) {
+  for (const BaseBrdf& brdf : stretched_brdfs) {
+    for (const float roughness : {0.0F, 0.3F, 1.0F}) {
+      for (const float strength : {1e-4F, 1.0F}) {
+        Scene scene = square_scene(random_normals(9, 5, 0.999F, 3), {.brdf = brdf, .roughness = roughness});
+        scene.materials[0].anisotropy = Anisotropy{strength, 0.8F};
+        TestRenderer renderer(scene, {16, 16});
+        for (const double distance : {0.05, 20.0}) {
+          for (const float value : renderer.frame(*GetParam(), {}, {}, 0, distance).texels) {
+            ASSERT_TRUE(std::isfinite(value) && value >= 0.0F) << roughness << " " << strength;
+          }
+        }
+      }
+    }
+  }
+}
+
 // The map's middle, where the camera looks, has one value; around it are others.
 template <class Fill>
 TextureMap uniform_in_the_middle(int channels, Fill fill) {
@@ -128,6 +178,54 @@ TEST_P(EveryMethodsBaseBrdf, ASpecularMapIsDirects) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryMethodsBaseBrdf,
                          ::testing::ValuesIn(all_methods().begin(), all_methods().end()),
                          [](const auto& test) { return test.param->info.name; });
+
+// Where all slopes are equal, LEAN's stretched lobe is the anisotropic Beckmann lobe. Its Gaussians are densities over
+// solid angle, Beckmann's is one over projected area, so they differ by the cosine of the half vector.
+TEST(Lean, HasTheCovarianceOfAnAnisotropicBaseOnConstantSlopes) {
+  Image normals = constant_normals(16, 16, {0, 0, 1});
+  normals.at(0, 0)[0] += 2e-5F;  // keeps the flat map from being left out
+  Scene scene =
+      square_scene(normals, {.brdf = {NormalDistribution::beckmann, GeometryTerm::smith, FresnelTerm::schlick, true},
+                             .specular = glm::vec3(0.5F)});
+  scene.materials[0].lobe_parameter = 0.15F;
+  scene.materials[0].anisotropy = Anisotropy{0.7F, 0.6F};
+  TestRenderer renderer(scene, {24, 24});
+  const Image direct = renderer.frame(find_method("direct"));
+  EXPECT_LT(error_of(renderer.frame(find_method("lean"), "lean:roughness=stretched"), direct), 1e-3);
+  EXPECT_LT(error_of(renderer.frame(find_method("cells"), "cells:coordinates=slopes"), direct), 1e-3);
+  const Image shading = renderer.frame(find_method("lean"), "lean:roughness=shading");
+  EXPECT_LT(error_of(shading, direct), 0.05);
+  EXPECT_LT(error_of(renderer.frame(find_method("lean"), "lean:roughness=moments"), shading), 1e-3);
+  for (const char* const method : {"leadr:roughness=shading", "leadr:roughness=moments"})
+    EXPECT_LT(error_of(renderer.frame(find_method("leadr"), method), direct), 0.05) << method;
+  EXPECT_GT(error_of(renderer.frame(find_method("toksvig")), direct), 0.2) << "the round mean";
+}
+
+// Xu et al. 2017 name anisotropic base BRDFs as a limit of their round lobes, which take the round mean. A flat map
+// leaves nothing else to err in: LEAN, with the covariance of the base lobe, is the reference there. With a round base
+// both are.
+TEST(XuVmf, IsLimitedToRoundBaseBrdfsAsStated) {
+  Image normals = constant_normals(16, 16, {0, 0, 1});
+  normals.at(0, 0)[0] += 2e-5F;  // keeps the flat map from being left out
+  Scene scene =
+      square_scene(normals, {.brdf = {NormalDistribution::beckmann, GeometryTerm::smith, FresnelTerm::none, false},
+                             .specular = glm::vec3(0.5F)});
+  scene.materials[0].lobe_parameter = 0.15F;
+  const auto errors = [](const Scene& of) {
+    TestRenderer renderer(of, {32, 32});
+    const Image reference = renderer.reference(16).mean;
+    return std::array{error_of(renderer.frame(find_method("xu_vmf")), reference),
+                      error_of(renderer.frame(find_method("lean")), reference)};
+  };
+  const auto [xu_round, lean_round] = errors(scene);
+  EXPECT_LT(lean_round, 0.02);
+  EXPECT_LT(xu_round, 0.1);
+  scene.materials[0].anisotropy = Anisotropy{0.7F, 0.6F};
+  const auto [xu, lean] = errors(scene);
+  EXPECT_LT(lean, 0.02);
+  EXPECT_GT(xu, 0.2);
+  EXPECT_GT(xu, 10.0 * lean);
+}
 
 // Far away a map of F0 is its mean: of a checkerboard of two values, for the reference as for a filtered frame.
 TEST(SpecularMap, IsItsMeanFarAway) {

@@ -47,7 +47,7 @@ class Inspection {
  public:
   explicit Inspection(Material material, const FootprintRect& rect = whole_map, int most_rings = largest_resolution)
       : rect_(rect), scene_(scene_of_facets(material)), gpu_(shared_context().info(), scene_, effects()) {
-    const ReferenceNdf exact(material.brdf.distribution, texels_under(material, rect).facets);
+    const ReferenceNdf exact(material.brdf.distribution, texels_under(material, rect).facets, material.anisotropy);
     grid_ = hemisphere_grid(std::min(resolution_for(exact.narrowest()), most_rings));
     exact_ = exact.densities(grid_.directions, no_progress);
   }

@@ -184,6 +184,7 @@ void apply(const BrdfSettings& settings, const MapSettings& maps, Material& mate
   material.brdf.geometry = settings.geometry.value_or(material.brdf.geometry);
   material.brdf.fresnel = settings.fresnel.value_or(material.brdf.fresnel);
   material.brdf.diffuse = settings.diffuse.value_or(material.brdf.diffuse);
+  if (settings.anisotropy) material.anisotropy = settings.anisotropy;
   if (settings.base_color) replace_base_color(*settings.base_color, material);
   if (settings.specular) {
     material.metallic_roughness_map.reset();
@@ -376,6 +377,20 @@ void add_name(const std::string& part, std::string& name) {
   if (!part.empty()) name = name.empty() ? part : part + "/" + name;
 }
 
+// Takes an anisotropy of strength 0 away, and refuses one that a model has where its lobe cannot be stretched.
+void settle_anisotropy(Material& material) {
+  if (material.anisotropy && material.anisotropy->strength == 0.0F) material.anisotropy.reset();
+  if (!material.anisotropy) return;
+  const NormalDistribution distribution = material.brdf.distribution;
+  const bool stretchable = distribution == NormalDistribution::ggx || distribution == NormalDistribution::beckmann;
+  if (stretchable && material.lobes.empty() && !material.microgeometry) return;
+  throw Error(ErrorKind::usage, "[brdf] anisotropy",
+              fmt::format("`{}` is anisotropic, which needs the distribution ggx, beckmann or ward, one lobe per facet "
+                          "and no [microgeometry]",
+                          material.name),
+              "give anisotropy = 0 to take the model's away");
+}
+
 }  // namespace
 
 Model load_part(const PartSettings& settings) {
@@ -393,6 +408,7 @@ Model load_part(const PartSettings& settings) {
     tile(settings.tiling, material);
     material.layer_map = layer;
     lay(maps, settings.brdf, material);
+    settle_anisotropy(material);
     add_name(settings.name, material.name);
   }
   if (settings.brdf.base_color || maps.diffuse) whiten_vertices(model);

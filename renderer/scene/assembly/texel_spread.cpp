@@ -18,6 +18,10 @@ void require_one_grid(const TextureMap& kappa, const Material& material) {
     throw Error(ErrorKind::usage, place, fmt::format("`{}` has several lobes per facet", material.name),
                 "leave the map out, or give the material one lobe");
   }
+  if (material.anisotropy && material.anisotropy->strength > 0.0F) {
+    throw Error(ErrorKind::usage, place, fmt::format("`{}` is anisotropic", material.name),
+                "leave the map out, or give anisotropy = 0 in [brdf]");
+  }
   if (const TextureMap* const width = width_map(material);
       width != nullptr && width->coordinates != kappa.coordinates) {
     throw Error(ErrorKind::usage, place,

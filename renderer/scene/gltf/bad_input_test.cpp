@@ -227,6 +227,19 @@ TEST(GltfBadInput, MaterialFactorsOutOfRange) {
   });
 }
 
+TEST(GltfBadInput, Anisotropy) {
+  const auto with = [](const json& extension) {
+    return [extension](GltfBuilder& quad) {
+      quad.json["materials"] = {{{"extensions", {{"KHR_materials_anisotropy", extension}}}}};
+      primitive(quad)["material"] = 0;
+    };
+  };
+  expect_error("anisotropyStrength: must be a number", with({{"anisotropyStrength", "much"}}));
+  expect_error("anisotropyStrength: 2 is not within 0 to 1", with({{"anisotropyStrength", 2.0}}));
+  expect_error("anisotropyRotation", with({{"anisotropyRotation", 1e300}}));
+  expect_error("anisotropyTexture", with({{"anisotropyStrength", 1.0}, {"anisotropyTexture", {{"index", 7}}}}));
+}
+
 TEST(GltfBadInput, ClearCoats) {
   const auto with_coat = [](const json& coat) {
     return [coat](GltfBuilder& quad) {

@@ -146,6 +146,7 @@ const std::vector<RuleGroup>& rule_groups() {
       {"materials[].extensions.KHR_materials_ior", {{".ior", number}}},
       {"materials[].extensions.KHR_materials_clearcoat",
        {{".{clearcoatFactor,clearcoatRoughnessFactor,clearcoatNormalTexture.scale}", number}}},
+      {"materials[].extensions.KHR_materials_anisotropy", {{".{anisotropyStrength,anisotropyRotation}", number}}},
       {"materials[].extensions.KHR_materials_pbrSpecularGlossiness",
        {{".diffuseFactor", numbers, optional, "", 4},
         {".specularFactor", numbers, optional, "", 3},
@@ -154,6 +155,7 @@ const std::vector<RuleGroup>& rule_groups() {
        "occlusionTexture,emissiveTexture,extensions.KHR_materials_clearcoat.clearcoatTexture,"
        "extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture,"
        "extensions.KHR_materials_clearcoat.clearcoatNormalTexture,"
+       "extensions.KHR_materials_anisotropy.anisotropyTexture,"
        "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture,"
        "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture}",
        {{"", object},
@@ -168,9 +170,9 @@ const std::vector<RuleGroup>& rule_groups() {
 }
 
 constexpr auto supported = std::to_array<std::string_view>(
-    {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_clearcoat",
-     "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_materials_variants",
-     "KHR_mesh_quantization", "KHR_texture_transform"});
+    {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_anisotropy",
+     "KHR_materials_clearcoat", "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit",
+     "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
 
 /// An extension and its meaning.
 struct ExtensionWord {
@@ -179,7 +181,6 @@ struct ExtensionWord {
 
 /// Those that add something to a surface which is whole without it.
 constexpr auto layers = std::to_array<ExtensionWord>({
-    {"KHR_materials_anisotropy", "anisotropy"},
     {"KHR_materials_diffuse_transmission", "diffuse transmission"},
     {"KHR_materials_dispersion", "dispersion"},
     {"KHR_materials_emissive_strength", "the strength of emissive light"},

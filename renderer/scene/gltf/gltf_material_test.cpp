@@ -118,6 +118,26 @@ TEST(Gltf, ClearCoatsHaveFactorsAndMapsOfTheirOwn) {
   EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is not a coat";
 }
 
+// KHR_materials_anisotropy: two factors. Its texture is named in a warning, and strength 0 is no anisotropy.
+TEST(Gltf, AnisotropyHasAStrengthAndARotation) {
+  GltfBuilder quad = make_quad();
+  quad.json["extensionsUsed"] = {"KHR_materials_anisotropy"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const auto loaded = [&](const json& extension) {
+    quad.json["materials"] = {{{"extensions", {{"KHR_materials_anisotropy", extension}}}}};
+    return load_gltf(quad.write());
+  };
+  const Model model = loaded({{"anisotropyStrength", 0.6}, {"anisotropyRotation", 1.25}});
+  EXPECT_TRUE(model.warnings.empty());
+  EXPECT_EQ(model.materials.at(0).anisotropy, (Anisotropy{0.6F, 1.25F}));
+  EXPECT_FALSE(loaded({{"anisotropyRotation", 1.25}}).materials.at(0).anisotropy) << "a strength of 0 is the default";
+  const int texture = quad.add_texture(one_colour({255.0F, 128.0F, 255.0F}));
+  const Model textured = loaded({{"anisotropyStrength", 0.6}, {"anisotropyTexture", {{"index", texture}}}});
+  EXPECT_EQ(textured.materials.at(0).anisotropy, (Anisotropy{0.6F, 0.0F}));
+  ASSERT_EQ(textured.warnings.size(), 1U);
+  EXPECT_NE(textured.warnings.front().find("the anisotropy texture images[0] is not read"), std::string::npos);
+}
+
 // KHR_materials_unlit: the base colour alone. What is about light is left out, without a warning.
 TEST(Gltf, UnlitMaterialsHaveTheirColourAlone) {
   GltfBuilder quad = make_quad();

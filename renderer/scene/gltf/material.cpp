@@ -91,6 +91,7 @@ TextureReference texture_in(const tinygltf::Value& extension, const char* key) {
 }
 
 constexpr const char* clear_coat = "KHR_materials_clearcoat";
+constexpr const char* anisotropic = "KHR_materials_anisotropy";
 constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 constexpr const char* without_light = "KHR_materials_unlit";
 
@@ -198,6 +199,7 @@ Material GltfMaterials::convert_named(int gltf_index) {
   if (material.unlit) return material;
   convert_normals(source, material);
   convert_coat(source, material);
+  convert_anisotropy(source, material);
   warn_left_out(source);
   return material;
 }
@@ -296,6 +298,24 @@ void GltfMaterials::convert_coat(const tinygltf::Material& source, Material& mat
         normals(image_of(normal.index), checked(normal.scale, -1e4, 1e4, "clearcoatNormalTexture.scale"));
   }
   material.coat = std::move(coat);
+}
+
+// KHR_materials_anisotropy: constants; its texture of directions and strengths is not read.
+void GltfMaterials::convert_anisotropy(const tinygltf::Material& source, Material& material) {
+  const tinygltf::Value* const extension = extension_of(source, anisotropic);
+  if (extension == nullptr) return;
+  const Anisotropy anisotropy{checked(number(*extension, "anisotropyStrength", 0.0), 0.0, 1.0, "anisotropyStrength"),
+                              checked(number(*extension, "anisotropyRotation", 0.0), -1e6, 1e6, "anisotropyRotation")};
+  if (anisotropy.strength == 0.0F) return;
+  material.anisotropy = anisotropy;
+  const int texture = texture_in(*extension, "anisotropyTexture").index;
+  if (texture < 0) return;
+  const int image = image_of(texture);
+  const std::string name = image < 0 ? fmt::format("textures[{}]", texture)
+                                     : image_name(document_.model.images[static_cast<std::size_t>(image)], image);
+  add_once(warnings_, fmt::format("the anisotropy texture {} is not read: its direction and strength are taken as "
+                                  "constant, those of the factors",
+                                  name));
 }
 
 void GltfMaterials::convert_alpha(const tinygltf::Material& source, Material& material) {

@@ -35,6 +35,7 @@ class GltfMaterials {
   void convert_specular_glossiness(const tinygltf::Value& source, Material& material);
   void convert_normals(const tinygltf::Material& source, Material& material);
   void convert_coat(const tinygltf::Material& source, Material& material);
+  void convert_anisotropy(const tinygltf::Material& source, Material& material);
   void convert_alpha(const tinygltf::Material& source, Material& material);
   void warn_left_out(const tinygltf::Material& source);
   [[nodiscard]] std::optional<TextureMap> find_map(int texture, int set, const tinygltf::ExtensionMap& extensions);

@@ -63,6 +63,53 @@ TEST(FacetLobeSettings, AxesAreNormalisedAndWeightsSumToOneWhereNoneIsGiven) {
             0.25F);
 }
 
+const std::string metal_plane = "[plane]\n[brdf]\ndistribution = \"ggx\"\n";
+
+TEST(AnisotropySettings, AreAStrengthOrTwoAlphas) {
+  const Material strong = material(metal_plane + "alpha = 0.2\nanisotropy = 0.5\nanisotropy_rotation_degrees = 90\n");
+  ASSERT_TRUE(strong.anisotropy);
+  EXPECT_EQ(strong.anisotropy->strength, 0.5F);
+  EXPECT_FLOAT_EQ(strong.anisotropy->rotation, 1.5707964F);
+  EXPECT_NEAR(alphas_of(strong).along, 0.2 + 0.8 * 0.25, 1e-6);
+  EXPECT_NEAR(alphas_of(strong).across, 0.2, 1e-6);
+  EXPECT_NEAR(lobe_of(strong).parameter, std::sqrt(0.5 * (0.16 + 0.04)), 1e-6) << "the round mean";
+  const Material wide = material(metal_plane + "alpha_x = 0.4\nalpha_y = 0.1\n");
+  EXPECT_NEAR(alphas_of(wide).along, 0.4, 1e-6);
+  EXPECT_NEAR(alphas_of(wide).across, 0.1, 1e-7);
+  EXPECT_EQ(wide.anisotropy->rotation, 0.0F);
+  const Material high = material(metal_plane + "alpha_x = 0.1\nalpha_y = 0.4\nanisotropy_rotation_degrees = 30\n");
+  EXPECT_NEAR(alphas_of(high).along, 0.4, 1e-6);
+  EXPECT_NEAR(high.anisotropy->rotation, (90.0 + 30.0) * 3.14159265 / 180.0, 1e-6);
+  EXPECT_FALSE(material(metal_plane + "alpha_x = 0.3\nalpha_y = 0.3\n").anisotropy);
+  EXPECT_FALSE(material(metal_plane + "alpha = 0.3\nanisotropy = 0\n").anisotropy);
+  EXPECT_EQ(alphas_of(material(metal_plane + "alpha_x = 1\nalpha_y = 1\n")), (Alphas{1.0, 1.0}));
+}
+
+TEST(AnisotropySettings, MistakesNameTheirLine) {
+  expect_brdf_error(vmf_plane + "kappa = 9\nanisotropy = 0.5\n",
+                    {"scene.toml:5", "needs the distribution ggx, beckmann or ward"});
+  expect_brdf_error("[plane]\n[brdf]\ndistribution = \"blinn_phong\"\nalpha_x = 0.5\nalpha_y = 0.1\n",
+                    {"scene.toml:4", "needs the distribution ggx, beckmann or ward"});
+  expect_brdf_error(metal_plane + "anisotropy = 1.5\n", {"scene.toml:4", "not within"});
+  expect_brdf_error(metal_plane + "alpha_x = 0.5\n", {"`alpha_y`", "missing"});
+  expect_brdf_error(metal_plane + "alpha_x = 0.5\nalpha_y = 0.1\nanisotropy = 1\n", {"scene.toml:6", "excludes"});
+  expect_brdf_error(metal_plane + "alpha_x = 0.5\nalpha_y = 0.1\nalpha = 0.1\n", {"scene.toml:6", "excludes"});
+  expect_brdf_error(metal_plane + "anisotropy_rotation_degrees = 3\n", {"`anisotropy`", "missing"});
+  expect_brdf_error(metal_plane + "anisotropy = 0.5\n[[brdf.lobe]]\naxis = [0, 0, 1]\nalpha = 0.3\n",
+                    {"scene.toml:4", "excludes [[brdf.lobe]]"});
+  expect_brdf_error(metal_plane + "anisotropy = 0.5\n[microgeometry]\nkind = \"grooves\"\n",
+                    {"excludes anisotropy in [brdf]"});
+  expect_brdf_error("[plane]\n[brdf]\ndistribution = \"ward\"\ngeometry = \"smith\"\n",
+                    {"scene.toml:4", "excludes Ward's distribution"});
+}
+
+TEST(AnisotropySettings, WardIsBeckmannWithItsOwnGeometryTerm) {
+  const Material ward = material("[plane]\n[brdf]\ndistribution = \"ward\"\nalpha_x = 0.3\nalpha_y = 0.1\n");
+  EXPECT_EQ(ward.brdf.distribution, NormalDistribution::beckmann);
+  EXPECT_EQ(ward.brdf.geometry, GeometryTerm::ward);
+  EXPECT_TRUE(ward.anisotropy);
+}
+
 TEST(FacetLobeSettings, MistakesNameTheirLine) {
   const std::string lobe = vmf_plane + "[[brdf.lobe]]\n";
   expect_brdf_error(lobe + "kappa = 3\n", {"scene.toml:4", "`axis` in [[brdf.lobe]] is missing"});

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "renderer/core/names.hpp"
 #include "renderer/scene/settings/toml_values.hpp"
@@ -152,20 +155,79 @@ std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDis
   return lobes;
 }
 
+// Ward's BRDF is Beckmann's distribution with a geometry term of its own.
+constexpr std::size_t ward_distribution = 4;
+
 /// The settings that all parts share.
 BrdfSettings read_common_brdf(const TomlTable& table) {
   BrdfSettings brdf;
-  assign(brdf.distribution, table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf"}));
+  const auto distribution = table.choice("distribution", {"blinn_phong", "beckmann", "ggx", "vmf", "ward"});
   assign(brdf.geometry, table.choice("geometry", {"none", "tan", "smith"}));
+  if (distribution == ward_distribution) {
+    if (brdf.geometry)
+      throw table.error_at("geometry", "excludes Ward's distribution, which has its own", "leave it out");
+    brdf.distribution = NormalDistribution::beckmann;
+    brdf.geometry = GeometryTerm::ward;
+  } else {
+    assign(brdf.distribution, distribution);
+  }
   assign(brdf.fresnel, table.choice("fresnel", {"none", "schlick"}));
   brdf.diffuse = table.boolean("diffuse");
   return brdf;
 }
 
+// Anisotropy by its strength, with the lobe's own alpha across its direction.
+std::optional<Anisotropy> read_anisotropy(const TomlTable& table) {
+  const auto strength = table.number("anisotropy", unit_range);
+  const auto degrees = table.number("anisotropy_rotation_degrees", {-360.0, 360.0});
+  if (!strength && !degrees) return std::nullopt;
+  if (!strength && !table.has("alpha_x")) refuse_missing(table, "anisotropy");
+  return Anisotropy{static_cast<float>(strength.value_or(0.0)),
+                    static_cast<float>(degrees.value_or(0.0) * std::numbers::pi / 180.0)};
+}
+
+// The lobe by alpha along the tangent and along the bitangent, before any rotation: the strength that leads from the
+// smaller to the larger one.
+void read_two_alphas(const TomlTable& table, BrdfSettings& brdf) {
+  const auto x = table.number("alpha_x", lobe_range(NormalDistribution::ggx));
+  const auto y = table.number("alpha_y", lobe_range(NormalDistribution::ggx));
+  if (!x && !y) return;
+  if (!x) refuse_missing(table, "alpha_x");
+  if (!y) refuse_missing(table, "alpha_y");
+  for (const char* other : {"alpha", "anisotropy"}) {
+    if (table.has(other)) throw table.error_at(other, "excludes `alpha_x` and `alpha_y`", "give one of the two forms");
+  }
+  const double along = std::max(*x, *y), across = std::min(*x, *y);
+  Anisotropy stretch = brdf.anisotropy.value_or(Anisotropy{});
+  if (along > across) stretch.strength = static_cast<float>(std::sqrt((along - across) / (1.0 - across)));
+  if (*y > *x) stretch.rotation += static_cast<float>(0.5 * std::numbers::pi);
+  brdf.lobe_parameter = static_cast<float>(across);
+  brdf.anisotropy = stretch;
+}
+
+// The key that makes a lobe anisotropic, if there is one.
+std::optional<std::string_view> anisotropy_key(const TomlTable& table) {
+  for (const std::string_view key : {"anisotropy", "alpha_x", "alpha_y", "anisotropy_rotation_degrees"}) {
+    if (table.has(key)) return key;
+  }
+  return std::nullopt;
+}
+
+bool can_be_stretched(NormalDistribution distribution) {
+  return distribution == NormalDistribution::ggx || distribution == NormalDistribution::beckmann;
+}
+
 /// The settings of one part, next to the `common` ones.
 BrdfSettings read_own_brdf(const TomlTable& table, const BrdfSettings& common) {
   BrdfSettings brdf = common;
+  if (const auto key = anisotropy_key(table)) {
+    if (!can_be_stretched(brdf.distribution.value_or(NormalDistribution::ggx)))
+      throw table.error_at(*key, "needs the distribution ggx, beckmann or ward", "leave it out, or give one of them");
+    if (table.has("lobe")) throw table.error_at(*key, "excludes [[brdf.lobe]]", "give one of them");
+  }
   brdf.lobe_parameter = read_lobe(table, brdf.distribution);
+  brdf.anisotropy = read_anisotropy(table);
+  read_two_alphas(table, brdf);
   brdf.lobes = read_lobes(table, brdf.distribution);
   if (brdf.lobe_parameter && !brdf.lobes.empty()) {
     throw table.error_at("lobe", "excludes a lobe parameter of [brdf]", "give each lobe its own alone");
@@ -346,7 +408,9 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
 }
 
 const std::vector<std::string> common_brdf_keys{"distribution", "geometry", "fresnel", "diffuse"};
-const std::vector<std::string> own_brdf_keys{"exponent", "alpha", "kappa", "specular", "base_color", "lobe"};
+const std::vector<std::string> own_brdf_keys{
+    "exponent", "alpha",      "kappa", "alpha_x", "alpha_y", "anisotropy", "anisotropy_rotation_degrees",
+    "specular", "base_color", "lobe"};
 
 LayerSettings read_layer(const TomlTable& table, const std::filesystem::path& folder,
                          std::span<const Surface> surfaces) {
@@ -392,6 +456,15 @@ void require_no_normals(const TomlTable& part, const TomlTable& maps, const decl
   }
 }
 
+// Patches and spreads within a texel are of round lobes.
+void require_round_lobes(const TomlTable& table, const PartSettings& part) {
+  if (!part.brdf.anisotropy || part.brdf.anisotropy->strength == 0.0F) return;
+  if (!part.microgeometry.empty())
+    throw table.error_at("microgeometry", "excludes anisotropy in [brdf]", "give one of them");
+  if (part.maps.normal_kappa)
+    throw table.error_at("maps", "with `normal_kappa` excludes anisotropy in [brdf]", "give one of them");
+}
+
 /// A part's content, layer, maps, coat and tiling, with a BRDF that is read already.
 PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder,
                        std::span<const Surface> surfaces) {
@@ -414,6 +487,7 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
   if (const auto coat = table.table("clear_coat", {"weight", "roughness", "normal_map", "height_map"}))
     part.coat = read_coat(*coat, folder);
   part.microgeometry = read_patches(table, part.maps, folder);
+  require_round_lobes(table, part);
   if (const auto tiling = table.table("tiling", {"uv"})) assign(part.tiling, read_pair(*tiling, "uv", repeats));
   return part;
 }

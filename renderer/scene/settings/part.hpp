@@ -56,7 +56,8 @@ struct BrdfSettings {
   std::optional<FresnelTerm> fresnel;
   std::optional<bool> diffuse;
   std::optional<float> lobe_parameter;
-  std::vector<FacetLobe> lobes;  ///< replace the one about the normal
+  std::vector<FacetLobe> lobes;          ///< replace the one about the normal
+  std::optional<Anisotropy> anisotropy;  ///< strength 0 removes that of the materials
   std::optional<glm::vec3> specular, base_color;
 };
 

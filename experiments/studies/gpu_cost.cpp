@@ -30,7 +30,9 @@ std::vector<WeighedTrips> weighed_trips(const PixelTrips& trips, const GpuScene:
                         .rounds = 1,
                         .point_lights = unrolled(lights.point),
                         .spot_lights = unrolled(lights.spot),
-                        .directional_lights = unrolled(lights.directional)};
+                        .directional_lights = unrolled(lights.directional),
+                        .area_lights = unrolled(lights.area),
+                        .area_points = unrolled(lights.area_points)};
   std::vector<WeighedTrips> programs{{base, 1.0}};
   const auto add = [&](int FixedTrips::*loop, double further) {
     if (further <= 0) return;
@@ -45,6 +47,8 @@ std::vector<WeighedTrips> weighed_trips(const PixelTrips& trips, const GpuScene:
   add(&FixedTrips::point_lights, static_cast<double>(lights.point) - base.point_lights);
   add(&FixedTrips::spot_lights, static_cast<double>(lights.spot) - base.spot_lights);
   add(&FixedTrips::directional_lights, static_cast<double>(lights.directional) - base.directional_lights);
+  add(&FixedTrips::area_lights, static_cast<double>(lights.area) - base.area_lights);
+  add(&FixedTrips::area_points, static_cast<double>(lights.area_points) - base.area_points);
   return programs;
 }
 

@@ -167,11 +167,12 @@ SharedReferences::OfView& ReferenceRenderer::begun_reference(const RunView& at, 
   return shared_->views.emplace_back(std::move(begun));
 }
 
-// The reference over the samples of finest levels. Where its samples draw directions from an environment, their noise
-// is its own: methods look the environment up, and a difference of the two would only add it.
+// The reference over the samples of finest levels. Where its samples draw directions from an environment or points of
+// area lights, their noise is its own: methods draw none, and a difference of the two would only add it.
 Image ReferenceRenderer::samples_of_finest_levels(const View& view, const Image& whole, const Progress& progress) {
   const ReferenceSettings& settings = settings_.reference;
   if (has(stage_.effects(), Effect::environment_light) && settings.environment == EnvironmentUse::sampled) return {};
+  if (has(stage_.effects(), Effect::area_light)) return {};
   const int spp = finest_samples(settings);
   if (spp == settings.spp || !settings.by_cause) return whole;
   return finest_mean(stage_.reference(), view, settings, progress);

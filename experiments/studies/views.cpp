@@ -87,6 +87,13 @@ struct Turned {
     light.direction = turned_direction(turn, light.direction);
     return light;
   }
+  Light operator()(AreaLight light) const {
+    light.position = turned_point(turn, light.position);
+    light.direction = turned_direction(turn, light.direction);
+    light.across = turned_direction(turn, light.across);
+    light.up = turned_direction(turn, light.up);
+    return light;
+  }
 };
 
 bool casts_shadows(const Scene& scene) {

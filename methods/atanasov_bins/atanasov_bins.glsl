@@ -109,7 +109,7 @@ float finishedValue(float variance, float value, Query q) {
 //? end
 }
 
-//? if environment_light or sampling_frame and normal_variation and not roughness_bin
+//? if lobes_listed or sampling_frame and normal_variation and not roughness_bin
 // Section 2.1: draws normals from D. A point of the footprint, the bin of its texel, and a normal anywhere in that bin.
 
 // A drawn texel, and the share of the footprint that it represents: 0 without a texel or a normal.
@@ -170,7 +170,7 @@ float meanValue(Effective e, Query q) {
 
 vec3 meanNormal(Effective e) { return e.normal; }
 
-//? if environment_light
+//? if lobes_listed
 // A single texel: only the place in its bin is drawn.
 int drawCount(Effective e) {
 //? if roughness_bin
@@ -200,7 +200,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) { return meanValue(e, queryFor(false, h, h, h)); }
 
-//? if environment_light
+//? if lobes_listed
 // Environment light: the drawn normals, each with the reflection of its texel, are the lobes of the NDF.
 
 //? if roughness_lobe

@@ -8,7 +8,7 @@ struct Effective {
 //? if diffuse
   vec3 mean;       // of the normals
 //? end
-//? if environment_light
+//? if lobes_listed
   float drawn;     // the share of drawn texels that have a normal
 //? end
 };
@@ -265,7 +265,7 @@ vec3 meanUnder(Footprint f) {
 vec3 meanNormal(Effective e) { return e.mean; }
 //? end
 
-//? if environment_light
+//? if lobes_listed
 // Draws texels under a footprint (section 2.1) at points that fill it evenly. A region with no more texels than draws
 // contributes all of them, by their areas.
 
@@ -314,7 +314,7 @@ Effective effective(Footprints f) {
 //? if diffuse
   e.mean = meanUnder(f.normal);
 //? end
-//? if environment_light
+//? if lobes_listed
   e.drawn = drawnShare(e);
 //? end
   return e;

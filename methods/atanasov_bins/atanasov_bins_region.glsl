@@ -4,7 +4,7 @@
 // the module has a budget of rounds, which its parts share. Eight pixels are drawn together and wait for each other at
 // the end of every loop, so the largest part of the eight counts.
 
-//? if environment_light
+//? if lobes_listed
 const float other_rounds = 25000.0;  // drawn normals and their reflection
 //? else
 const float other_rounds = 5000.0;   // lookups under the footprint

@@ -75,7 +75,7 @@ float peakReflectance(Effective e, Peak peak, vec3 h, vec3 wi, vec3 wo) {
   return peakDensity(e, peak, h) * geometryFactor(lobeFromVariance(e.variance), peak.axis, h, wi, wo);
 }
 
-//? if environment_light
+//? if lobes_listed
 NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share) {
   NormalLobe lobe = baseNormalLobe(peak.axis, lobeFromVariance(partOf(e, peak).breadth), share);
   lobe.base = lobeFromVariance(e.variance);

@@ -51,7 +51,7 @@ float peakReflectance(Effective e, Peak peak, vec3 h, vec3 wi, vec3 wo) {
   return facetReflectance(facetsOf(e, peak), h, wi, wo);
 }
 
-//? if environment_light
+//? if lobes_listed
 NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share) {
   return facetNormalLobe(facetsOf(e, peak), k, share);
 }

@@ -26,7 +26,7 @@ vec3 directionFromDisc(vec2 p) {
   return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
 }
 
-//? if environment_light
+//? if lobes_listed
 float weightOfPeaks(Footprint f);
 //? end
 
@@ -35,7 +35,7 @@ Effective effective(Footprints f) {
   e.footprint = f.normal;
   e.mean = meanOfNormals(f);
   e.variance = baseVariance(f);
-//? if environment_light
+//? if lobes_listed
   e.total = weightOfPeaks(f.normal);
 //? else
   e.total = 1.0;
@@ -89,7 +89,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
 
-//? if environment_light
+//? if lobes_listed
 NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share);  // of the base BRDF's lobe k
 
 //? if normal_variation

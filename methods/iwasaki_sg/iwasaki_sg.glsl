@@ -214,6 +214,6 @@ float ndf(Effective e, vec3 h) {
   return sum;
 }
 
-//? if environment_light
+//? if lobes_listed
 //? include iwasaki_sg_environment.glsl
 //? end

@@ -13,7 +13,7 @@ struct Effective {
 //? if diffuse
   mat2 root;  // of the covariance, symmetric
 //? end
-//? if environment_light
+//? if lobes_listed
   LobeRow row;
 //? end
 };
@@ -22,7 +22,7 @@ Effective effective(Footprints f) {
   Effective e;
   e.lobe = footprintLobe(f, filteredSlopes(f));
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
-//? if environment_light
+//? if lobes_listed
   e.row = lobeRow(e.lobe);
 //? end
 //? if diffuse
@@ -151,7 +151,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if environment_light
+//? if lobes_listed
 int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
 
 NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }

@@ -6,7 +6,7 @@ struct Effective {
   SlopeLobe lobe;
   float round_lobe;  // parameter of the round base lobe of the same breadth, for the geometry term
   vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels'
-//? if environment_light
+//? if lobes_listed
   LobeRow row;
 //? end
 };
@@ -32,7 +32,7 @@ Effective effective(Footprints f) {
   FilteredSlopes slopes = filteredSlopes(f);
   e.lobe = footprintLobe(f, slopes);
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
-//? if environment_light
+//? if lobes_listed
   e.row = lobeRow(e.lobe);
 //? end
   e.mean_normal = vec3(0.0, 0.0, 1.0);
@@ -68,7 +68,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if environment_light
+//? if lobes_listed
 int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
 
 NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }

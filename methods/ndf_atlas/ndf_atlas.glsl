@@ -52,7 +52,7 @@ void fillTables(inout Effective e, Footprint f, float ratio) {
 }
 //? end
 
-//? if environment_light
+//? if lobes_listed
 const float whole_chain = 100.0;  // coarser than any level; the sampler of the moments has levels only
 Part surrounded[parts];  // of the whole footprint, with or without tables
 //? end
@@ -94,7 +94,7 @@ void fillTexels(inout Effective e, Footprints f, BaseLobe base) {
 //? else
   fillParts(f, any_level, base, e.part);
 //? end
-//? if environment_light
+//? if lobes_listed
   fillParts(f, whole_chain, base, surrounded);
 //? end
 }
@@ -113,7 +113,7 @@ Effective effective(Footprints f) {
   fillTexels(e, f, base);
 //? else
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
-//? if environment_light
+//? if lobes_listed
   surrounded[0] = e.part[0];
 //? end
 //? end
@@ -157,11 +157,11 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if environment_light and anisotropic_lobe
+//? if lobes_listed and anisotropic_lobe
 int lobeCount(Effective e) { return parts * row_count; }
 
 NormalLobe normalLobe(Effective e, int i) { return rowLobe(surrounded[i / row_count], i % row_count); }
-//? elif environment_light
+//? elif lobes_listed
 int lobeCount(Effective e) { return parts; }
 
 // A round lobe with the same mean slope variance.

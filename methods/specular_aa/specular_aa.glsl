@@ -246,7 +246,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo, HalfSteps steps) { ret
 //? end
 //? end
 
-//? if environment_light
+//? if lobes_listed
 int lobeCount(Effective e) { return facetLobeCount(); }
 
 //? if preset_babylon

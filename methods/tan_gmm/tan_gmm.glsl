@@ -266,7 +266,7 @@ float ndf(Effective e, vec3 h) {
   return sum;
 }
 
-//? if environment_light
+//? if lobes_listed
 int lobeCount(Effective e) { return components * facetLobeCount(); }
 
 //? if lobe_gaussian

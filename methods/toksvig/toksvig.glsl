@@ -27,7 +27,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
-//? if environment_light
+//? if lobes_listed
 //? include facet_normal_lobes.glsl
 
 vec3 meanNormal(Effective e) {

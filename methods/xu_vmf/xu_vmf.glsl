@@ -41,7 +41,7 @@ Effective effective(Footprints f) {
     int i = first;
     do {
       weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
-//? if environment_light
+//? if lobes_listed
       shares[i].x *= own.weight / amountsOf(e.covered);
 //? end
     } while (++i < e.count);
@@ -102,7 +102,7 @@ float ndf(Effective e, vec3 h) {
   return sum / amountsOf(e.covered);
 }
 
-//? if environment_light
+//? if lobes_listed
 int lobeCount(Effective e) { return e.count; }
 
 // A lobe reflects the share that its facets cover, seen along their own normals, and masks as they do. The integral of

@@ -59,7 +59,7 @@ struct Effective {
 // accesses to an array by a variable index are expensive.
 vec4 lobes[most_lobes];    // mean direction, and width: the parameter of the base lobe, or kappa
 vec2 weights[most_lobes];  // of the density, and of the cosine of the mean normal
-//? if environment_light
+//? if lobes_listed
 vec2 shares[most_lobes];   // of the footprint's facets (as published: the amount), and the parameter of their lobe
 //? end
 
@@ -108,7 +108,7 @@ struct StoredLobe {
 void addLobe(inout int count, StoredLobe added) {
   lobes[count] = added.lobe;
   weights[count] = added.weights;
-//? if environment_light
+//? if lobes_listed
   shares[count] = added.share;
 //? end
   ++count;

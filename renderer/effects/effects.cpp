@@ -38,6 +38,7 @@ constexpr auto names = std::to_array<std::string_view>({"diffuse",
                                                         "point_light",
                                                         "spot_light",
                                                         "directional_light",
+                                                        "area_light",
                                                         "cast_shadow",
                                                         "environment_light",
                                                         "microgeometry_visibility",
@@ -237,8 +238,11 @@ std::vector<EffectDecision> coverage_effects(const Scene& scene) {
 }
 
 std::vector<EffectDecision> light_effects(const Scene& scene) {
-  return {lights<PointLight>(Effect::point_light, scene, "point"), lights<SpotLight>(Effect::spot_light, scene, "spot"),
-          lights<DirectionalLight>(Effect::directional_light, scene, "directional"), cast_shadow(scene),
+  return {lights<PointLight>(Effect::point_light, scene, "point"),
+          lights<SpotLight>(Effect::spot_light, scene, "spot"),
+          lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+          lights<AreaLight>(Effect::area_light, scene, "area"),
+          cast_shadow(scene),
           environment_light(scene)};
 }
 

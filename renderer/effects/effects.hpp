@@ -38,6 +38,7 @@ enum class Effect : std::size_t {
   point_light,
   spot_light,
   directional_light,
+  area_light,
   cast_shadow,               ///< parts of the scene that hide lights from others
   environment_light,         ///< light from all directions
   microgeometry_visibility,  ///< small-scale geometry whose facets hide and shadow each other

@@ -59,7 +59,8 @@ TEST(LightBlocks, OneTooManyNamesTheLimit) {
   for (const auto& [light, most, kind] :
        {std::tuple<Light, std::size_t, std::string>{PointLight{}, block / 32, "point"},
         {SpotLight{}, block / 64, "spot"},
-        {DirectionalLight{}, block / 32, "directional"}}) {
+        {DirectionalLight{}, block / 32, "directional"},
+        {AreaLight{.points = 1}, block / 96, "area"}}) {
     scene.lights.assign(most + 1, light);
     try {
       const GpuScene refused(shared_context().info(), scene, EffectSet{});
@@ -132,9 +133,11 @@ TEST(BlockBindings, AreThoseOfTheShaders) {
                                                {"SpotLights", block_binding::spot_lights},
                                                {"DirectionalLights", block_binding::directional_lights},
                                                {"EnvironmentBlock", block_binding::environment},
-                                               {"ShadowViews", block_binding::shadow_views}};
-  const std::string text =
-      fragment_text({.effects = EffectSet{}.set(), .brdf = {}}, {.textures = {}, .scalars = {{"own", 1.0F}}});
+                                               {"ShadowViews", block_binding::shadow_views},
+                                               {"AreaLights", block_binding::area_lights},
+                                               {"AreaPoints", block_binding::area_points}};
+  const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}, .area_points = 1},
+                                         {.textures = {}, .scalars = {{"own", 1.0F}}});
   std::map<std::string, GLuint> found;
   const std::regex block(R"(layout\(std140, binding = (\d+)\) uniform (\w+))");
   for (auto i = std::sregex_iterator(text.begin(), text.end(), block); i != std::sregex_iterator(); ++i)

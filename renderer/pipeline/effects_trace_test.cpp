@@ -146,6 +146,10 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.lights.emplace_back(DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(1.0F)});
      }},
+    {Effect::area_light, "AreaLight",
+     [](Scene& s) {
+       s.lights.emplace_back(AreaLight{.position = {0, 0, 2}, .intensity = glm::vec3(2.0F)});
+     }},
     {Effect::cast_shadow, "shadow_maps",
      [](Scene& s) {
        s.meshes.push_back(box_mesh({-0.2F, -0.2F, 0.1F}, {0.2F, 0.2F, 0.3F}));

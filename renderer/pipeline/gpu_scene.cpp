@@ -113,7 +113,7 @@ bool maps_share_coordinates(const Material& m) {
 
 // A block without lights stores one dark light, because the shader's array has at least one element.
 gl::Buffer light_buffer(std::span<const glm::vec4> values) {
-  static constexpr std::array<glm::vec4, 4> dark{};
+  static constexpr std::array<glm::vec4, area_light_vectors> dark{};
   return gl::Buffer(std::as_bytes(values.empty() ? std::span<const glm::vec4>(dark) : values),
                     gl::Buffer::Content::changing);
 }
@@ -289,6 +289,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
   }
   shared_bytes_ = uploads.bytes();
   if (same != nullptr) environment_ = same->environment_;
+  area_cosines_ = same != nullptr ? same->area_cosines_ : std::make_shared<std::optional<GpuAreaCosines>>();
   make_lights(context, scene);
   if (!hides_environment(effects)) return;
   if (same != nullptr && same->visibility_ != nullptr) {
@@ -333,18 +334,33 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   require_capacity(context, "point", blocks.point, 2, scene.source);
   require_capacity(context, "spot", blocks.spot, 4, scene.source);
   require_capacity(context, "directional", blocks.directional, 2, scene.source);
+  require_capacity(context, "area", blocks.area, area_light_vectors, scene.source);
+  require_capacity(context, "points of area", blocks.area_points, 1, scene.source);
   point_lights_ = light_buffer(blocks.point);
   spot_lights_ = light_buffer(blocks.spot);
   directional_lights_ = light_buffer(blocks.directional);
-  light_counts_ = {blocks.point.size() / 2, blocks.spot.size() / 4, blocks.directional.size() / 2,
-                   shadow_maps_ ? shadow_maps_->views().views.size() : 0};
+  area_lights_ = light_buffer(blocks.area);
+  area_points_ = light_buffer(blocks.area_points);
+  light_counts_ = {.point = blocks.point.size() / 2,
+                   .spot = blocks.spot.size() / 4,
+                   .directional = blocks.directional.size() / 2,
+                   .area = blocks.area.size() / area_light_vectors,
+                   .area_points = blocks.area_points.size(),
+                   .area_by_lobes = blocks.area_by_lobes,
+                   .points_alone = blocks.points_alone,
+                   .shadow_maps = shadow_maps_ ? shadow_maps_->views().views.size() : 0};
   if (!has(effects_, Effect::environment_light)) {
     environment_ = nullptr;
   } else if (environment_ == nullptr) {
     environment_ = std::make_shared<GpuEnvironment>(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
   }
-  for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional})
+  for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional, &blocks.area, &blocks.area_points})
     add_to_hash(content_.lights, std::as_bytes(std::span(*block)));
+}
+
+const GpuAreaCosines& GpuScene::area_cosines() {
+  if (!*area_cosines_) area_cosines_->emplace(brdf_);
+  return **area_cosines_;
 }
 
 void GpuScene::update(const Scene& scene) {
@@ -380,10 +396,12 @@ void GpuScene::update(const Scene& scene) {
   write(point_lights_, blocks.point, 2 * light_counts_.point);
   write(spot_lights_, blocks.spot, 4 * light_counts_.spot);
   write(directional_lights_, blocks.directional, 2 * light_counts_.directional);
+  write(area_lights_, blocks.area, area_light_vectors * light_counts_.area);
+  write(area_points_, blocks.area_points, light_counts_.area_points);
   content_ = content;
 }
 
-void GpuScene::bind_lights(const gl::Program& program, const TextureUnits& units) const {
+void GpuScene::bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes) const {
   const auto bind = [&](Effect effect, GLuint binding, const gl::Buffer& buffer, const char* counter,
                         std::size_t count) {
     if (!has(effects_, effect)) return;
@@ -394,6 +412,10 @@ void GpuScene::bind_lights(const gl::Program& program, const TextureUnits& units
   bind(Effect::spot_light, block_binding::spot_lights, spot_lights_, "spot_light_count", light_counts_.spot);
   bind(Effect::directional_light, block_binding::directional_lights, directional_lights_, "directional_light_count",
        light_counts_.directional);
+  bind(Effect::area_light, block_binding::area_lights, area_lights_, "area_light_count",
+       area_by_lobes ? light_counts_.area_by_lobes : light_counts_.area);
+  bind(Effect::area_light, block_binding::area_points, area_points_, "area_point_count",
+       area_by_lobes ? light_counts_.points_alone : light_counts_.area_points);
   if (shadow_maps_) shadow_maps_->bind(units.unit("shadow_maps"));
 }
 

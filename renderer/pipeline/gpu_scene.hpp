@@ -13,6 +13,7 @@
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
+#include "renderer/pipeline/gpu_area_cosines.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/lights.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
@@ -140,9 +141,10 @@ class GpuScene {
   /// None if the effect is off, or without point, spot and directional lights.
   [[nodiscard]] const std::optional<ShadowMaps>& shadow_maps() const { return shadow_maps_; }
   /// Bytes that every method reads: shared textures, shadow maps, the environment's visibility and, once a method's
-  /// program exists, the prefiltered environment.
+  /// program exists, the prefiltered environment and the table for area lights.
   [[nodiscard]] std::size_t shared_bytes() const {
-    return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0);
+    return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0) +
+           (area_cosines_ && *area_cosines_ ? (*area_cosines_)->bytes() : 0);
   }
   /// Null without environment light.
   [[nodiscard]] const GpuEnvironment* environment() const { return environment_.get(); }
@@ -150,12 +152,17 @@ class GpuScene {
   /// Null if nothing hides a part of the environment.
   [[nodiscard]] const GpuVisibility* visibility() const { return visibility_.get(); }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
+  /// The table of lobes for area lights, fitted on the first call.
+  [[nodiscard]] const GpuAreaCosines& area_cosines();
 
   /// Binds the light blocks and the shadow maps at their unit of `units`, and sets the light counts of `program`.
-  void bind_lights(const gl::Program& program, const TextureUnits& units) const;
+  /// area_by_lobes: whether the program integrates area lights by lobes, if the light allows it.
+  void bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes = false) const;
 
   struct LightCounts {
     std::size_t point = 0, spot = 0, directional = 0;
+    std::size_t area = 0, area_points = 0;            ///< area lights, and points of all of them
+    std::size_t area_by_lobes = 0, points_alone = 0;  ///< as in LightBlocks
     std::size_t shadow_maps = 0;
   };
   [[nodiscard]] const LightCounts& light_counts() const { return light_counts_; }
@@ -170,10 +177,11 @@ class GpuScene {
   bool shared_coordinates_ = true;
   std::size_t shared_bytes_ = 0;
   std::vector<GpuBatch> batches_;
-  gl::Buffer point_lights_, spot_lights_, directional_lights_;
+  gl::Buffer point_lights_, spot_lights_, directional_lights_, area_lights_, area_points_;
   LightCounts light_counts_;
   std::size_t facet_lobes_ = 1;
   std::shared_ptr<GpuEnvironment> environment_;
+  std::shared_ptr<std::optional<GpuAreaCosines>> area_cosines_;
   std::shared_ptr<const GpuVisibility> visibility_;
   SamplerCache samplers_;
   SceneContent content_;

@@ -44,6 +44,7 @@ ShaderVariant variant_of(const GpuScene& scene, bool orthographic, bool shadows)
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
+          .area_lights = scene.light_counts().area,
           .shadow_maps = scene.light_counts().shadow_maps};
 }
 
@@ -228,7 +229,7 @@ Interior InteriorFinder::render(const View& view, const Tile& part, int spp, std
   if (tiles.empty()) return out;
   const glm::ivec2 largest = tiles.front().size;
   const GpuScene::LightCounts& counts = scene_->light_counts();
-  const std::size_t lights = shadows_ ? counts.point + counts.spot + counts.directional : 0;
+  const std::size_t lights = shadows_ ? counts.point + counts.spot + counts.directional + counts.area : 0;
   fit(geometry_, largest * samples.grid);
   if (shadows_) fit(*shadows_, largest * samples.grid);
   if (result_.width() != largest.x || result_.height() != largest.y)

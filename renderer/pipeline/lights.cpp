@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -34,7 +35,30 @@ struct LightAppender {
     blocks.directional.emplace_back(-light.direction, 0.0F);
     blocks.directional.emplace_back(light.illuminance, first_map);
   }
+
+  void operator()(const AreaLight& light) const {
+    const auto number = static_cast<float>(blocks.area.size() / area_light_vectors);
+    blocks.area.emplace_back(light.position, light.area());
+    blocks.area.emplace_back(light.across, light.half_size.x);
+    blocks.area.emplace_back(light.up, light.half_size.y);
+    blocks.area.emplace_back(light.direction, light.shape == AreaShape::rectangle ? 1.0F : 0.0F);
+    blocks.area.emplace_back(light.intensity, first_map);
+    blocks.area.emplace_back(1.0F / static_cast<float>(light.points), 0.0F, 0.0F, 0.0F);
+    const bool by_lobes = light.integral == AreaIntegral::lobes;
+    std::vector<glm::vec4> points;
+    for (const glm::vec3& point : area_points(light)) points.emplace_back(point, number);
+    blocks.area_points.insert(by_lobes ? blocks.area_points.end() : blocks.area_points.begin(), points.begin(),
+                              points.end());
+    if (by_lobes) ++blocks.area_by_lobes;
+    if (!by_lobes) blocks.points_alone += points.size();
+  }
 };
+
+// Whether methods integrate a light by points alone.
+bool by_points(const Light& light) {
+  const auto* area = std::get_if<AreaLight>(&light);
+  return area != nullptr && area->integral == AreaIntegral::points;
+}
 
 constexpr double margin_texels = 4.0;    // on each side: a comparison and the offset along the normal reach over two
 constexpr double widest_tangent = 1.74;  // half of 120 degrees: beyond that six maps have better texels
@@ -186,16 +210,41 @@ struct ViewAppender {
     append_point(light.point.position, glm::normalize(glm::dvec3(light.direction)), cone, scene, views);
   }
   void operator()(const DirectionalLight& light) const { views.push_back(parallel_view(light, scene)); }
+  // From the centre: the penumbra is left out.
+  void operator()(const AreaLight& light) const {
+    append_point(light.position, {}, std::numeric_limits<double>::infinity(), scene, views);
+  }
 };
 
 }  // namespace
 
 LightBlocks light_blocks(std::span<const Light> lights, std::span<const int> first_maps) {
   LightBlocks blocks;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    std::visit(LightAppender{blocks, first_maps.empty() ? 0.0F : static_cast<float>(first_maps[i])}, lights[i]);
+  for (const bool last : {false, true}) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (by_points(lights[i]) != last) continue;
+      std::visit(LightAppender{blocks, first_maps.empty() ? 0.0F : static_cast<float>(first_maps[i])}, lights[i]);
+    }
   }
   return blocks;
+}
+
+std::vector<glm::vec3> area_points(const AreaLight& light) {
+  std::vector<glm::vec3> points;
+  const int count = light.points;
+  for (int i = 0; i < count; ++i) {
+    float reversed = 0.0F, digit = 0.5F;  // radical inverse of base 2
+    for (int rest = i; rest > 0; rest /= 2, digit *= 0.5F) reversed += static_cast<float>(rest % 2) * digit;
+    const glm::vec2 u((static_cast<float>(i) + 0.5F) / static_cast<float>(count),
+                      reversed + 0.5F / static_cast<float>(std::bit_ceil(static_cast<unsigned>(count))));
+    glm::vec2 at = 2.0F * u - 1.0F;
+    if (light.shape == AreaShape::disk) {
+      const float azimuth = 2.0F * std::numbers::pi_v<float> * u.y;
+      at = std::sqrt(u.x) * glm::vec2(std::cos(azimuth), std::sin(azimuth));
+    }
+    points.push_back(light.position + at.x * light.half_size.x * light.across + at.y * light.half_size.y * light.up);
+  }
+  return points;
 }
 
 ShadowViews shadow_views(const Scene& scene) {

@@ -10,12 +10,23 @@
 
 namespace footprint {
 
+/// Vectors per area light in LightBlocks.
+inline constexpr std::size_t area_light_vectors = 6;
+
 /// The lights of a scene by kind, in the std140 layout of surface_lights.glsl.
 struct LightBlocks {
   std::vector<glm::vec4> point;        ///< 2 per light: position and range (0: unlimited), intensity and shadow map
   std::vector<glm::vec4> spot;         ///< 4 per light: as point, then direction, cone scale and offset
   std::vector<glm::vec4> directional;  ///< 2 per light: direction to the light, illuminance and shadow map
+  std::vector<glm::vec4> area;  ///< 6 per light, those with AreaIntegral::lobes first: AreaLight in area_lights.glsl
+  std::vector<glm::vec4>
+      area_points;                ///< 1 per point: position and number of its light; those of the last lights first
+  std::size_t area_by_lobes = 0;  ///< lights with AreaIntegral::lobes
+  std::size_t points_alone = 0;   ///< points of lights without
 };
+
+/// The points of an area light, as evenly spread as Hammersley's set: each stands for an equal share of its area.
+[[nodiscard]] std::vector<glm::vec3> area_points(const AreaLight& light);
 
 /// first_maps: the number of each light's first shadow map; empty without shadow maps.
 [[nodiscard]] LightBlocks light_blocks(std::span<const Light> lights, std::span<const int> first_maps = {});

@@ -44,6 +44,10 @@ bool samples_environment(const Variant& v) {
   return has(v.effects, Effect::environment_light) && v.environment != EnvironmentUse::prefiltered;
 }
 
+bool samples_areas(const Variant& v) { return has(v.effects, Effect::area_light) && v.area_sampled; }
+
+bool integrates_areas_by_lobes(const Variant& v) { return has(v.effects, Effect::area_light) && v.area_lobes; }
+
 // A tabulated BRDF has a diffuse term of its own.
 bool reflects_diffusely(const Variant& v) {
   return has(v.effects, Effect::diffuse) || has(v.effects, Effect::tabulated_brdf);
@@ -53,7 +57,7 @@ bool reflects_diffusely(const Variant& v) {
 bool draws(const Variant& v) {
   const bool directions = samples_environment(v) && v.environment == EnvironmentUse::sampled;
   const bool facets = has(v.effects, Effect::microgeometry_visibility) && v.sampling != Sampling::frame;
-  return v.sampling == Sampling::texel || directions || facets || draws_texels(v);
+  return v.sampling == Sampling::texel || directions || facets || draws_texels(v) || samples_areas(v);
 }
 
 struct FlagRow {
@@ -97,6 +101,14 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
     {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},
     {"finest_coat", [](const Variant& v) { return v.finest_coat; }},
+    {"area_points", [](const Variant& v) { return has(v.effects, Effect::area_light) && v.area_points > 0; }},
+    {"area_lobes", integrates_areas_by_lobes},
+    {"area_sampled", samples_areas},
+    {"directions_drawn", [](const Variant& v) { return samples_environment(v) || samples_areas(v); }},
+    {"lobes_listed",
+     [](const Variant& v) {
+       return integrates_areas_by_lobes(v) || (has(v.effects, Effect::environment_light) && !samples_environment(v));
+     }},
     {"environment_sampled", samples_environment},
     {"environment_dense", [](const Variant& v) { return v.environment == EnvironmentUse::dense; }},
     {"environment_summed",

@@ -40,13 +40,16 @@ std::string light_capacities(const ShaderVariant& v) {
   capacity(Effect::point_light, "point_light", v.point_lights);
   capacity(Effect::spot_light, "spot_light", v.spot_lights);
   capacity(Effect::directional_light, "directional_light", v.directional_lights);
-  text += fmt::format("const int light_capacity = {};\n", v.point_lights + v.spot_lights + v.directional_lights);
+  capacity(Effect::area_light, "area_light", v.area_lights);
+  if (v.area_points > 0) text += fmt::format("const int area_point_capacity = {};\n", v.area_points);
+  text += fmt::format("const int light_capacity = {};\n",
+                      v.point_lights + v.spot_lights + v.directional_lights + v.area_points);
   if (v.environment_suns > 0) text += fmt::format("const int environment_sun_count = {};\n", v.environment_suns);
   if (calls_for_shadow_maps(v.effects)) capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
   return text;
 }
 
-std::string fixed_trips(const std::optional<FixedTrips>& trips) {
+std::string fixed_trips(const std::optional<FixedTrips>& trips, const EffectSet& effects) {
   if (!trips) return {};
   std::string text;
   const auto constant = [&](std::string_view name, int value) {
@@ -58,6 +61,10 @@ std::string fixed_trips(const std::optional<FixedTrips>& trips) {
   constant("point_light_count", trips->point_lights);
   constant("spot_light_count", trips->spot_lights);
   constant("directional_light_count", trips->directional_lights);
+  if (has(effects, Effect::area_light)) {
+    constant("area_light_count", trips->area_lights);
+    constant("area_point_count", trips->area_points);
+  }
   return text;
 }
 
@@ -111,7 +118,7 @@ void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t 
 
 // The most calls of a module's `shade` per pixel: once per light and part of a footprint.
 int shade_calls(const ShaderVariant& v) {
-  const std::size_t lights = v.point_lights + v.spot_lights + v.directional_lights + v.environment_suns;
+  const std::size_t lights = v.point_lights + v.spot_lights + v.directional_lights + v.area_points + v.environment_suns;
   const int count = v.footprint.count;
   const bool tiles = v.footprint.kind == FootprintFilterKind::shaded;
   const int parts = tiles ? count * count : is_stochastic(v.footprint) ? count : 1;
@@ -123,7 +130,7 @@ void add_shared_functions(ShaderText& text, const ShaderFlags& flags, int calls 
   text.include("common_footprint.glsl");
   text.include("common_lobes.glsl");
   text.include("common_base_brdf.glsl");
-  if (flags.at("environment_light")) text.include("normal_lobes.glsl");
+  if (flags.at("environment_light") || flags.at("lobes_listed")) text.include("normal_lobes.glsl");
 }
 
 // The start of a stage with a module.
@@ -174,7 +181,7 @@ ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits&
   vertex.add(version_line);
   vertex.include("surface_vertex.glsl");
   ShaderText fragment = module_text(flags, module);
-  fragment.add(units.declarations() + light_capacities(variant) + fixed_trips(variant.fixed_trips));
+  fragment.add(units.declarations() + light_capacities(variant) + fixed_trips(variant.fixed_trips, variant.effects));
   fragment.include("surface_lights.glsl");
   add_method_pass(fragment, variant, flags, options, prefiltered, "surface_fragment.glsl");
   return {vertex.text(), std::move(fragment)};
@@ -310,6 +317,7 @@ TextureUnits forward_units(const ShaderVariant& variant, const Prefiltered& pref
       units.add(name, name == "environment_stack" || name == "environment_lobes" ? "sampler2DArray" : "sampler2D");
   }
   if (hides_environment(variant.effects)) units.add("visibility_maps", "sampler2DArray");
+  if (variant.area_lobes) units.add("area_cosines", "sampler2DArray");
   if (calls_for_shadow_maps(variant.effects)) units.add("shadow_maps", "sampler2DArrayShadow");
   return units;
 }

@@ -68,8 +68,9 @@ void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& s
 }  // namespace
 
 bool calls_for_shadow_maps(const EffectSet& effects) {
-  return has(effects, Effect::cast_shadow) && (has(effects, Effect::point_light) || has(effects, Effect::spot_light) ||
-                                               has(effects, Effect::directional_light));
+  return has(effects, Effect::cast_shadow) &&
+         (has(effects, Effect::point_light) || has(effects, Effect::spot_light) ||
+          has(effects, Effect::directional_light) || has(effects, Effect::area_light));
 }
 
 ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const EffectSet& effects,

@@ -18,6 +18,8 @@
 namespace footprint {
 namespace {
 
+bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
+
 // The effects of a program: those that the method honours, the maps that the pipeline reads itself, vertex colours,
 // clear coats, unlit surfaces, and visibility, which is the same for all methods.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
@@ -38,7 +40,25 @@ EnvironmentUse environment_of(const Method& method, const ProgramSettings& setti
   return itself ? settings.environment : EnvironmentUse::prefiltered;
 }
 
+// How a program integrates area lights.
+struct AreaUse {
+  std::size_t points = 0;  // evaluated as points of light
+  bool by_lobes = false, sampled = false;
+};
+
+// As for environments, a module whose samples are many integrates itself. Other modules list their lobes if they honour
+// environments; patches of facets and sums over texels list none.
+AreaUse area_use(const GpuScene& scene, const Method& method, const ProgramSettings& settings) {
+  const GpuScene::LightCounts& lights = scene.light_counts();
+  if (method.info.draws_directions && settings.sampling != Sampling::frame) return {.sampled = lights.area > 0};
+  const bool lists_lobes = has(method.info.honours, Effect::environment_light) && !method.info.sums_environment &&
+                           !has(scene.effects(), Effect::clear_coat) && !has_patches(scene.effects());
+  if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.area_points};
+  return {.points = lights.points_alone, .by_lobes = true};
+}
+
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
+  const AreaUse area = area_use(scene, *baked.method, settings);
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
           .sampling = settings.sampling,
@@ -58,6 +78,10 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .point_lights = scene.light_counts().point,
           .spot_lights = scene.light_counts().spot,
           .directional_lights = scene.light_counts().directional,
+          .area_lights = scene.light_counts().area,
+          .area_points = area.points,
+          .area_lobes = area.by_lobes,
+          .area_sampled = area.sampled,
           .shadow_maps = scene.light_counts().shadow_maps};
 }
 
@@ -86,8 +110,7 @@ void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Sampl
 // has what they are worth. One that sums over a patch's facets costs far more.
 constexpr std::uint32_t directions_per_sample = 16;
 constexpr std::uint32_t directions_of_a_patch = 2;
-
-bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
+constexpr std::uint32_t directions_to_areas = 4;  // without an environment: light comes from fewer directions
 
 // Restores the GL state that a frame build may change and a draw does not set.
 class StateGuard {
@@ -289,6 +312,7 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
   program_ =
       gl::Program(fmt::format("{} ({})", baked.spec.text, shaders.fragment.lines()), shaders.vertex, fragment_text_);
   units_.require_all_of(program_, baked.spec.text);
+  if (variant_.area_lobes) (void)scene.area_cosines();
   if (has(variant_.effects, Effect::environment_light)) scene.environment()->prepare(variant_.environment);
 }
 
@@ -323,7 +347,10 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) const {
 // Sample i takes the directions of the points n i to n i + n - 1, n a power of two: an aligned block, whose digits are
 // its first one's with those of the points 0 to n - 1 added without carry.
 void SurfaceProgram::set_directions(const SampleDraw& samples) const {
-  const std::uint32_t count = has_patches(scene_effects_) ? directions_of_a_patch : directions_per_sample;
+  const bool surrounded = has(scene_effects_, Effect::environment_light);
+  const std::uint32_t count = has_patches(scene_effects_) ? directions_of_a_patch
+                              : surrounded                ? directions_per_sample
+                                                          : directions_to_areas;
   const int cells = samples.grid * samples.grid;
   std::vector<std::uint32_t> cell_firsts;
   cell_firsts.reserve(static_cast<std::size_t>(cells));
@@ -376,7 +403,8 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     const glm::mat3 rotation = world_to_camera(view.camera);
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
-  scene.bind_lights(program_, units_);
+  scene.bind_lights(program_, units_, variant_.area_lobes);
+  if (variant_.area_lobes) scene.area_cosines().bind(units_.unit("area_cosines"));
   if (environment_light && scene.visibility()) scene.visibility()->bind(units_.unit("visibility_maps"));
   const GLint texels_location = program_.uniform("drawn_texels");
   gl::api().Enable(GL_DEPTH_TEST);

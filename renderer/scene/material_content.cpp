@@ -149,6 +149,11 @@ class Counter {
     add_all(direction, illuminance);
   }
 
+  void add(const AreaLight& light) {
+    const auto& [shape, position, direction, across, up, half_size, intensity, integral, points] = light;
+    add_all(shape, position, direction, across, up, half_size, intensity, integral, points);
+  }
+
   void add(const Camera& camera) {
     const auto& [world, orthographic, yfov, ymag, znear, zfar, aspect] = camera;
     add_all(world, orthographic, yfov, ymag, znear, zfar, aspect);

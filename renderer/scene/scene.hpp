@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -82,7 +83,37 @@ struct DirectionalLight {
   glm::vec3 illuminance{1.0F};             ///< lux per channel on a surface that faces it
 };
 
-using Light = std::variant<PointLight, SpotLight, DirectionalLight>;
+/// The outline of an area light.
+enum class AreaShape { rectangle, disk };
+
+/// How methods integrate an area light; the reference samples it.
+enum class AreaIntegral {
+  lobes,   ///< by their lobes, as linearly transformed cosines; by points where a method lists no lobes
+  points,  ///< as points of light
+};
+
+/// The allowed number of points of an area light.
+inline constexpr int most_area_points = 256;
+
+/// Light from one side of a flat surface, with equal radiance in all directions (docs/area-lights.md).
+struct AreaLight {
+  AreaShape shape = AreaShape::rectangle;
+  glm::vec3 position{0.0F};                ///< the centre
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where it shines, unit
+  glm::vec3 across{-1.0F, 0.0F, 0.0F};     ///< unit, along two edges; cross(across, up) is `direction`
+  glm::vec3 up{0.0F, 1.0F, 0.0F};          ///< unit, along the other edges
+  glm::vec2 half_size{0.5F};  ///< from the centre to an edge along each, metres; both are the radius of a disk
+  glm::vec3 intensity{1.0F};  ///< candela per channel along `direction`: radiance times area
+  AreaIntegral integral = AreaIntegral::lobes;
+  int points = 16;  ///< for AreaIntegral::points, 1 to most_area_points
+
+  /// Square metres.
+  [[nodiscard]] float area() const {
+    return (shape == AreaShape::disk ? std::numbers::pi_v<float> : 4.0F) * half_size.x * half_size.y;
+  }
+};
+
+using Light = std::variant<PointLight, SpotLight, DirectionalLight, AreaLight>;
 
 /// A camera as glTF defines it: looks along its own -z, y up.
 struct Camera {

@@ -39,7 +39,7 @@ Effective effective(Footprints f) {
 //? end
 }
 
-//? if environment_sampled
+//? if directions_drawn
 //? include lobe_sampling.glsl
 
 // A direction about n with cosine density.

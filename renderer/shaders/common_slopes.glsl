@@ -155,7 +155,7 @@ float slopeDensity(SlopeLobe e, vec3 h) {
 }
 //? end
 
-//? if environment_light
+//? if lobes_listed
 // Splits an elongated lobe into a row of round ones, for environment light. All have the narrow width of the lobe,
 // positions along its long axis, Gaussian weights and the same total variance. Five or seven at even steps up to 1.9
 // standard deviations; lobes less than 1.3 times as long as wide stay one.

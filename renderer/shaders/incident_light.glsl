@@ -64,3 +64,18 @@ Incident incidentDirectional(int i, mat3 frame) {
                   vec4(directional_lights[i].to_light.xyz, 0.0));
 }
 //? end
+
+//? if area_points
+// A point of an area light, as bright as its share of the light.
+Incident incidentAreaPoint(int i, mat3 frame) {
+  AreaLight light = area_lights[int(area_points[i].w)];
+  vec3 d = area_points[i].xyz - world_position;
+  float spread = areaSpread(light, d);
+  float attenuation = spread > 0.0 ? light.share.x / max(spread, 1e-12) : 0.0;
+//? if cast_shadow
+  attenuation *= clearOfShadow(light.intensity.w, world_position, seen_facet, world_position - light.position_area.xyz);
+//? end
+  return incident((d * inversesqrt(max(dot(d, d), 1e-24))) * frame, light.intensity.rgb * attenuation,
+                  vec4(area_points[i].xyz, 1.0));
+}
+//? end

@@ -11,7 +11,7 @@ in float vertex_alpha;
 
 //? if cast_shadow
 layout(location = 0) out vec4 light_shares;
-uniform int first_light;  // of the four, points before spots before directions
+uniform int first_light;  // of the four, points before spots before directions before areas
 //? else
 layout(location = 0) out vec4 position_chart;   // world space; 0: nothing is there
 layout(location = 1) out vec4 facet_material;  // the triangle's own normal, towards the viewer
@@ -64,6 +64,12 @@ vec4 lightShares(vec3 facet, vec3 normal) {
   for (int i = 0; i < directional_light_count; ++i, ++place) {
     if (place < 0 || place > 3) continue;
     shares[place] = shareOf(directional_lights[i].illuminance.w, facet, normal, directional_lights[i].to_light.xyz);
+  }
+//? end
+//? if area_light
+  for (int i = 0; i < area_light_count; ++i, ++place) {
+    if (place < 0 || place > 3) continue;
+    shares[place] = shareOf(area_lights[i].intensity.w, facet, normal, area_lights[i].position_area.xyz - world_position);
   }
 //? end
   return shares;

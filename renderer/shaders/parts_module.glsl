@@ -43,11 +43,11 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if environment_light and anisotropic_lobe
+//? if lobes_listed and anisotropic_lobe
 int lobeCount(Effective e) { return parts * row_count; }
 
 NormalLobe normalLobe(Effective e, int i) { return rowLobe(e.part[i / row_count], i % row_count); }
-//? elif environment_light
+//? elif lobes_listed
 int lobeCount(Effective e) { return parts; }
 
 // A round lobe with the same mean slope variance.

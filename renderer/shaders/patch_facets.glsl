@@ -132,7 +132,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
-//? if environment_light and not environment_sampled
+//? if lobes_listed
 //? include facet_normal_lobes.glsl
 
 vec3 meanNormal(Effective e) { return e.facets.normal; }

@@ -131,12 +131,24 @@ vec3 reflected(SurfacePoint p, Incident light) {
   return withCoat(p, r, light.wi) * light.irradiance_at_normal;
 }
 
+//? if directions_drawn and not environment_dense or area_sampled
+//? include direction_draws.glsl
+
+//? end
 //? if environment_sampled
 //? include environment_sampling.glsl
 //? elif environment_light
 //? include environment_stack.glsl
 //? end
 
+//? if area_sampled
+//? include area_sampling.glsl
+
+//? end
+//? if area_lobes
+//? include area_lobes.glsl
+
+//? end
 //? if filter_parts
 // Evaluates every light once per pixel, independent of the number of parts.
 Incident arriving[max(light_capacity, 1)];
@@ -155,6 +167,9 @@ void findLight(mat3 frame) {
 //? end
 //? if directional_light
   for (int i = 0; i < directional_light_count; ++i) add(incidentDirectional(i, frame));
+//? end
+//? if area_points
+  for (int i = 0; i < area_point_count; ++i) add(incidentAreaPoint(i, frame));
 //? end
 }
 //? end
@@ -198,6 +213,18 @@ vec3 lit(SurfacePoint p) {
     radiance += reflected(p, incidentDirectional(directional, p.frame));
   } while (directional++ < directional_light_count - 1);
 //? end
+//? if area_points
+  int area_point = 0;
+  do {
+    radiance += reflected(p, incidentAreaPoint(area_point, p.frame));
+  } while (area_point++ < area_point_count - 1);
+//? end
+//? end
+//? if area_sampled
+  radiance += areaIntegral(p);
+//? end
+//? if area_lobes
+  radiance += areaLit(p);
 //? end
 //? if environment_sampled
   radiance += environmentIntegral(p);

@@ -34,6 +34,10 @@ uniform int directional_light_count;
 //? end
 //? end
 
+//? if area_light
+//? include area_lights.glsl
+
+//? end
 // Inverse square falloff, windowed if the light has a range (KHR_lights_punctual).
 float distanceAttenuation(float squared_distance, float range) {
   float falloff = 1.0 / max(squared_distance, 1e-12);
@@ -42,7 +46,7 @@ float distanceAttenuation(float squared_distance, float range) {
   return falloff * clamp(1.0 - ratio * ratio, 0.0, 1.0);
 }
 
-//? if cast_shadow and (point_light or spot_light or directional_light)
+//? if cast_shadow and (point_light or spot_light or directional_light or area_light)
 // Large-scale visibility of point, spot and directional lights: shadow maps (docs/shadows.md).
 struct ShadowView {
   mat4 world_to_map;    // to (u w, v w, linear depth, w)

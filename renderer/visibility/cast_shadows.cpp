@@ -35,6 +35,12 @@ struct RayFrom {
     if (light.illuminance == glm::vec3(0.0F)) return {};
     return LightRay{-light.direction, std::numeric_limits<float>::infinity()};
   }
+
+  [[nodiscard]] std::optional<LightRay> operator()(const AreaLight& light) const {
+    const auto ray = (*this)(PointLight{.position = light.position, .intensity = light.intensity, .range = {}});
+    if (!ray || -glm::dot(ray->direction, light.direction) <= 0.0F) return {};
+    return ray;
+  }
 };
 
 constexpr std::size_t fewest_area_points = 4096;  // so that large triangles are looked at closely

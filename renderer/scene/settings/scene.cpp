@@ -77,7 +77,19 @@ constexpr std::array<Word<bool>, 2> shadow_sides{{{false, "drawn"}, {true, "both
 
 constexpr std::array<Word<Horizon>, 2> horizons{{{Horizon::cut, "cut"}, {Horizon::open, "open"}}};
 
-const std::vector<std::string> light_types{"point", "spot", "directional"};
+const std::vector<std::string> light_types{"point", "spot", "directional", "rectangle", "disk"};
+
+// The keys of each type besides `type`, `color` and `intensity`.
+const std::vector<std::vector<std::string>> light_keys{
+    {"position", "range"},
+    {"position", "direction", "range", "inner_cone_degrees", "outer_cone_degrees"},
+    {"direction"},
+    {"position", "direction", "up", "size", "integral", "points"},
+    {"position", "direction", "radius", "integral", "points"}};
+
+constexpr std::array<Word<AreaIntegral>, 2> area_integrals{
+    {{AreaIntegral::lobes, "lobes"}, {AreaIntegral::points, "points"}}};
+constexpr NumberRange area_size{0.0, 1e6};  // metres
 
 float radians(double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180.0); }
 
@@ -97,10 +109,13 @@ void read_frame(const TomlTable& table, SceneSettings& settings) {
   }
 }
 
-/// Rejects keys that another type of light has.
-void reject(const TomlTable& table, std::initializer_list<std::string_view> keys, const std::string& type) {
-  for (const std::string_view key : keys) {
-    if (table.has(key)) throw table.error_at(key, "does not belong to a " + type + " light", "leave it out");
+/// Rejects keys that only another type of light has.
+void reject_keys_of_others(const TomlTable& table, std::size_t type) {
+  for (const std::vector<std::string>& keys : light_keys) {
+    for (const std::string& key : keys) {
+      if (table.has(key) && std::ranges::find(light_keys[type], key) == light_keys[type].end())
+        throw table.error_at(key, "does not belong to a " + light_types[type] + " light", "leave it out");
+    }
   }
 }
 
@@ -115,25 +130,53 @@ SpotLight read_spot(const TomlTable& table, const PointLight& point, const glm::
   return spot;
 }
 
+// Perpendicular to the direction of a light and as near to `up` as that allows.
+glm::dvec3 upright(const TomlTable& table, const glm::dvec3& direction) {
+  const auto given = read_direction(table, "up");
+  const glm::dvec3 supplied =
+      std::abs(direction.y) < 0.999 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, -1.0);  // a lamp in a ceiling
+  const glm::dvec3 up = given.value_or(supplied);
+  const glm::dvec3 across = glm::cross(up, direction);
+  if (glm::length(across) < 1e-6)
+    throw table.error_at("up", "is parallel to the direction of the light", "turn one of them");
+  return glm::normalize(glm::cross(direction, across));
+}
+
+AreaLight read_area_light(const TomlTable& table, AreaShape shape, const glm::dvec3& direction) {
+  AreaLight light{.shape = shape, .direction = glm::vec3(direction)};
+  const bool is_disk = shape == AreaShape::disk;
+  const auto radius = table.number("radius", area_size);
+  const auto size = read_pair(table, "size", area_size);
+  if (is_disk ? !radius : !size) refuse_missing(table, is_disk ? "radius" : "size");
+  light.half_size = glm::vec2(is_disk ? glm::dvec2(*radius) : 0.5 * *size);
+  const glm::dvec3 up = upright(table, direction);
+  light.across = glm::vec3(glm::cross(up, direction));
+  light.up = glm::vec3(up);
+  assign(light.integral, read_word(table, "integral", area_integrals));
+  assign(light.points, table.whole_number("points", {1.0, most_area_points}));
+  return light;
+}
+
 Light read_light(const TomlTable& table) {
   const auto type = table.choice("type", light_types);
   if (!type) refuse_missing(table, "type");
+  reject_keys_of_others(table, *type);
   const double strength = table.number("intensity", intensity).value_or(1.0);
   const glm::vec3 power = read_color(table, "color").value_or(glm::vec3{1.0F}) * static_cast<float>(strength);
-  const bool needs_direction = *type != 0;
   const auto towards = read_direction(table, "direction");
-  if (needs_direction && !towards) refuse_missing(table, "direction");
-  if (*type != 1) reject(table, {"inner_cone_degrees", "outer_cone_degrees"}, light_types[*type]);
-  if (*type == 2) {
-    reject(table, {"position", "range"}, light_types[*type]);
-    return DirectionalLight{glm::vec3{*towards}, power};
-  }
+  if (*type != 0 && !towards) refuse_missing(table, "direction");
+  if (*type == 2) return DirectionalLight{glm::vec3{*towards}, power};
   const auto position = read_vector(table, "position", coordinate_range);
   if (!position) refuse_missing(table, "position");
+  if (*type > 2) {
+    AreaLight light = read_area_light(table, *type == 3 ? AreaShape::rectangle : AreaShape::disk, *towards);
+    light.position = glm::vec3{*position};
+    light.intensity = power;
+    return light;
+  }
   PointLight point{glm::vec3{*position}, power, std::nullopt};
   assign(point.range, table.number("range", length_range));
   if (*type == 1) return read_spot(table, point, *towards);
-  reject(table, {"direction"}, light_types[*type]);
   return point;
 }
 
@@ -171,8 +214,9 @@ EnvironmentSettings read_environment(const TomlTable& table, const std::filesyst
 }
 
 void read_lights(const TomlTable& root, const std::filesystem::path& folder, SceneSettings& settings) {
-  for (const TomlTable& light : root.tables("light", {"type", "position", "direction", "color", "intensity", "range",
-                                                      "inner_cone_degrees", "outer_cone_degrees"})) {
+  for (const TomlTable& light :
+       root.tables("light", {"type", "position", "direction", "color", "intensity", "range", "inner_cone_degrees",
+                             "outer_cone_degrees", "up", "size", "radius", "integral", "points"})) {
     settings.lights.push_back(read_light(light));
   }
   if (const auto lights = root.table("lights", {"keep"})) assign(settings.keep_model_lights, lights->boolean("keep"));

@@ -114,6 +114,46 @@ uv = [2, 3]
   EXPECT_EQ(settings.parts.at(0).tiling, glm::vec2(2, 3));
 }
 
+TEST(SceneSettings, AreaLights) {
+  const std::string plane = "[plane]\n", start = "[[light]]\nposition = [0, 0, 2]\ndirection = [0, 0, -2]\n";
+  const auto lights =
+      read(plane + start + "type = \"rectangle\"\nsize = [1, 3]\nup = [1, 0, 1]\nintensity = 6\ncolor = [1, 0.5, 0]\n" +
+           start + "type = \"disk\"\nradius = 0.25\nintegral = \"points\"\npoints = 64\n")
+          .lights;
+  ASSERT_EQ(lights.size(), 2U);
+  const auto& rectangle = std::get<AreaLight>(lights[0]);
+  EXPECT_EQ(rectangle.shape, AreaShape::rectangle);
+  EXPECT_EQ(rectangle.position, glm::vec3(0, 0, 2));
+  EXPECT_EQ(rectangle.direction, glm::vec3(0, 0, -1));
+  EXPECT_EQ(rectangle.up, glm::vec3(1, 0, 0));
+  EXPECT_EQ(glm::cross(rectangle.across, rectangle.up), rectangle.direction);
+  EXPECT_EQ(rectangle.half_size, glm::vec2(0.5F, 1.5F));
+  EXPECT_EQ(rectangle.intensity, glm::vec3(6, 3, 0));
+  EXPECT_EQ(rectangle.integral, AreaIntegral::lobes);
+  EXPECT_FLOAT_EQ(rectangle.area(), 3.0F);
+  const auto& disk = std::get<AreaLight>(lights[1]);
+  EXPECT_EQ(disk.shape, AreaShape::disk);
+  EXPECT_EQ(disk.half_size, glm::vec2(0.25F));
+  EXPECT_EQ(disk.integral, AreaIntegral::points);
+  EXPECT_EQ(disk.points, 64);
+  EXPECT_FLOAT_EQ(disk.area(), std::numbers::pi_v<float> / 16.0F);
+}
+
+TEST(SceneSettings, AreaLightsOutOfRangeAreRefused) {
+  const std::string start = "[plane]\n[[light]]\nposition = [0, 0, 2]\n", down = "direction = [0, 0, -1]\n";
+  const std::string rectangle = start + down + "type = \"rectangle\"\n", disk = start + down + "type = \"disk\"\n";
+  expect_settings_error(start + "type = \"disk\"\nradius = 1\n", {"`direction`", "missing"});
+  expect_settings_error(rectangle, {"`size` in [[light]] is missing"});
+  expect_settings_error(disk, {"`radius` in [[light]] is missing"});
+  expect_settings_error(rectangle + "size = [1, 1]\nradius = 1\n", {"scene.toml:7", "does not belong to a rectangle"});
+  expect_settings_error(disk + "radius = 1\nup = [0, 1, 0]\n", {"scene.toml:7", "does not belong to a disk light"});
+  expect_settings_error(disk + "radius = 1\nrange = 4\n", {"scene.toml:7", "does not belong to a disk light"});
+  expect_settings_error(disk + "radius = -1\n", {"scene.toml:6", "not within"});
+  expect_settings_error(disk + "radius = 1\npoints = 0\n", {"scene.toml:7", "not within"});
+  expect_settings_error(disk + "radius = 1\nintegral = \"lobe\"\n", {"scene.toml:7", "lobes"});
+  expect_settings_error(rectangle + "size = [1, 1]\nup = [0, 0, 3]\n", {"scene.toml:7", "parallel"});
+}
+
 TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
   const SceneSettings settings = read(
       "[model]\nfile = \"a.gltf\"\n[frame]\nexposure = \"auto\"\n"

@@ -172,7 +172,7 @@ NormalLobe normalLobe(Effective e, int i) {
 }
 //? end
 
-//? if environment_light
+//? if lobes_listed
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
   return baseGeometry(lobe.base, lobe.normal, h, wi, wo);
 }

@@ -152,7 +152,7 @@ float partDensity(Part part, Direction at) {
 //? end
 }
 
-//? if environment_light and anisotropic_lobe
+//? if lobes_listed and anisotropic_lobe
 // Lobe k of the row that stands for a part under an environment.
 NormalLobe rowLobe(Part part, int k) {
   NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);

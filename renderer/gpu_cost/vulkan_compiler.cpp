@@ -17,7 +17,7 @@ namespace footprint {
 namespace {
 
 constexpr const char* packages = "install the packages libvulkan1 and mesa-vulkan-drivers (Mesa's driver for AMD)";
-constexpr std::uint32_t most_textures = 32, most_blocks = 8, most_attributes = 16;
+constexpr std::uint32_t most_textures = 32, most_blocks = 9, most_attributes = 16;
 
 void require(VkResult result, const char* what) {
   if (result != VK_SUCCESS)

@@ -63,7 +63,11 @@ AreaSums areaSums(AreaOutline o, vec4 planes[3], mat3 to_cosine, bool has_wider)
   AreaSums sums = AreaSums(vec3(0.0), vec3(0.0));
   vec3 leaves[3], enters[3];
   bvec3 crossed = bvec3(false);
+//? if fixed_trips
+  const int corners = disk_corners;  // of every light: estimates count rounds of loops of constant length
+//? else
   int corners = o.rectangle ? 4 : disk_corners;
+//? end
   vec3 corner = areaCorner(o, corners - 1);
   int i = 0;
   do {

@@ -36,7 +36,7 @@ TEST(AnisotropicLobe, IsRecoveredFromItsRoundMean) {
 
 // The projected area of the facets, by rings of equal steps in the logarithm of tan.
 double projected_area(NormalDistribution distribution, const Alphas& alphas) {
-  constexpr int rings = 1000, spokes = 180;
+  constexpr int rings = 1000, spokes = 720;
   const double first = std::log(1e-4 * alphas.across), step = (std::log(1e4) - first) / rings;
   double sum = 0.0;
   for (int i = 0; i < rings; ++i) {

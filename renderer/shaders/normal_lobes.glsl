@@ -65,24 +65,24 @@ NormalLobe lobeOfWidths(mat2 widths, vec3 n, int k, float share) {
 
 // The lobes of facets with a `share` of the footprint.
 //? if anisotropic_lobe
-int baseLobeCount() { return row_count; }
-NormalLobe baseLobeOf(Facets f, int k, float share) { return lobeOfWidths(squaredWidths(f.lobe), f.normal, k, share); }
+int baseRowCount() { return row_count; }
+NormalLobe baseRowLobe(Facets f, int k, float share) { return lobeOfWidths(squaredWidths(f.lobe), f.normal, k, share); }
 //? else
-int baseLobeCount() { return 1; }
-NormalLobe baseLobeOf(Facets f, int k, float share) { return baseNormalLobe(f.normal, f.lobe, share); }
+int baseRowCount() { return 1; }
+NormalLobe baseRowLobe(Facets f, int k, float share) { return baseNormalLobe(f.normal, f.lobe, share); }
 //? end
 
 //? if multi_lobe
-int facetLobeCount() { return facet_lobe_count == 0 ? baseLobeCount() : facet_lobe_count; }
+int facetLobeCount() { return facet_lobe_count == 0 ? baseRowCount() : facet_lobe_count; }
 
 NormalLobe facetNormalLobe(Facets f, int k, float share) {
-  if (facet_lobe_count == 0) return baseLobeOf(f, k, share);
+  if (facet_lobe_count == 0) return baseRowLobe(f, k, share);
   vec3 axis = turnedWithNormal(facet_lobes[k].axis, f.normal);
   NormalLobe lobe = baseNormalLobe(axis, widenedLobe(k, f.spread), share * facet_lobes[k].weight);
   lobe.normal = f.normal;
   return lobe;
 }
 //? else
-int facetLobeCount() { return baseLobeCount(); }
-NormalLobe facetNormalLobe(Facets f, int k, float share) { return baseLobeOf(f, k, share); }
+int facetLobeCount() { return baseRowCount(); }
+NormalLobe facetNormalLobe(Facets f, int k, float share) { return baseRowLobe(f, k, share); }
 //? end

@@ -133,7 +133,7 @@ Scene whole_scene() {
   scene.name = "a scene";
   scene.meshes = {{"a mesh", {{}, {}, {}}, {0, 1, 2}, 0}};
   scene.materials = {whole_material()};
-  scene.lights = {PointLight{}, SpotLight{}, DirectionalLight{}};
+  scene.lights = {PointLight{}, SpotLight{}, DirectionalLight{}, AreaLight{}};
   scene.environment = Environment{"sky", std::make_shared<const Image>(2, 1, 3, 0.5F), 0.0F};
   scene.distances = {1.0, 2.0};
   scene.warnings = {"a warning"};
@@ -160,6 +160,8 @@ TEST(SceneContent, EveryFieldCounts) {
       [](Scene& s) { std::get<SpotLight>(s.lights[1]).outer_cone_angle = 0.5F; },
       [](Scene& s) { std::get<SpotLight>(s.lights[1]).point.intensity.b = 0.5F; },
       [](Scene& s) { std::get<DirectionalLight>(s.lights[2]).illuminance.g = 0.5F; },
+      [](Scene& s) { std::get<AreaLight>(s.lights[3]).half_size.y = 0.25F; },
+      [](Scene& s) { std::get<AreaLight>(s.lights[3]).integral = AreaIntegral::points; },
       [](Scene& s) { std::swap(s.lights[0], s.lights[2]); },
       [](Scene& s) { s.shadows.cast = true; },
       [](Scene& s) { s.shadows.resolution = 64; },

@@ -59,6 +59,8 @@ double geometry_factor(TabulatedGeometry geometry, double alpha, const glm::dvec
       return 0.5 * nl / (nl * std::sqrt(a2 + (1.0 - a2) * nv * nv) + nv * std::sqrt(a2 + (1.0 - a2) * nl * nl));
     case TabulatedGeometry::smith_beckmann:
       return 0.25 / ((1.0 + beckmann_lambda(alpha, nv) + beckmann_lambda(alpha, nl)) * nv);
+    case TabulatedGeometry::ward:
+      return nl / std::max(glm::dot(wi + wo, wi + wo), 1e-8);
   }
   return 1.0;
 }

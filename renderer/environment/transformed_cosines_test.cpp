@@ -16,6 +16,7 @@ using std::numbers::pi;
 
 constexpr ReflectedLobeKind ggx_smith{NormalDistribution::ggx, TabulatedGeometry::smith_ggx};
 constexpr ReflectedLobeKind beckmann_smith{NormalDistribution::beckmann, TabulatedGeometry::smith_beckmann};
+constexpr ReflectedLobeKind ward{NormalDistribution::beckmann, TabulatedGeometry::ward};
 constexpr ReflectedLobeKind phong_bare{NormalDistribution::blinn_phong, TabulatedGeometry::none};
 
 // G2 / (4 n.v) (Heitz 2014, equations 72 and 99), with the exact Lambda of each distribution.
@@ -36,7 +37,9 @@ double reflected(const ReflectedLobeKind& kind, double alpha, const glm::dvec3& 
     case NormalDistribution::ggx:
       return 1.0 / (pi * a2 * c2 * c2 * std::pow(1.0 + tan2 / a2, 2.0)) * smith(kind.distribution, alpha, wi.z, wo.z);
     case NormalDistribution::beckmann:
-      return std::exp(-tan2 / a2) / (pi * a2 * c2 * c2) * smith(kind.distribution, alpha, wi.z, wo.z);
+      return std::exp(-tan2 / a2) / (pi * a2 * c2 * c2) *
+             (kind == ward ? wi.z / (4.0 * std::pow(glm::dot(wo, h), 2.0))
+                           : smith(kind.distribution, alpha, wi.z, wo.z));
     default:
       return 1.0 / (pi * a2) * std::pow(h.z, 2.0 / a2 - 2.0);  // the exponent s of alpha, (s + 2) / 2 pi
   }
@@ -81,7 +84,7 @@ double total_variation(const ReflectedLobeKind& kind, double angle, double alpha
 }
 
 TEST(TransformedCosines, HaveTheEnergyOfTheLobe) {
-  for (const ReflectedLobeKind& kind : {ggx_smith, beckmann_smith, phong_bare}) {
+  for (const ReflectedLobeKind& kind : {ggx_smith, beckmann_smith, ward, phong_bare}) {
     for (const double alpha : {0.05, 0.2, 0.7}) {
       for (const double angle : {0.0, 0.8, 1.4}) {
         double energy = 0.0, schlick = 0.0;

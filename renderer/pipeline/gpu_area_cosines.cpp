@@ -43,6 +43,8 @@ ReflectedLobeKind reflected_lobe_kind(const BaseBrdf& brdf, NormalDistribution d
       break;
     case GeometryTerm::tan:
       return {distribution, TabulatedGeometry::tan};
+    case GeometryTerm::ward:
+      return {distribution, TabulatedGeometry::ward};
     case GeometryTerm::smith:
       return {distribution, brdf.distribution == NormalDistribution::ggx ? TabulatedGeometry::smith_ggx
                                                                          : TabulatedGeometry::smith_beckmann};

@@ -98,6 +98,26 @@ std::vector<NdfCase> two_lobe_cases() {
       with_lobes("one_lobe_twice", "facets of two equal lobes", {{level, 64.0F, 0.5F}, {level, 64.0F, 0.5F}}, 0.02)};
 }
 
+// Lobes that are wider along one direction, up to the strength that makes alpha 1 along it.
+std::vector<NdfCase> stretched_cases() {
+  const auto stretched = [](const char* name, const char* description, const Lobe& across, float strength) {
+    return NdfCase{.name = name,
+                   .group = "stretched",
+                   .description = description,
+                   .material =
+                       [=] {
+                         Material material = facets(tilted(10.0), across);
+                         material.anisotropy = Anisotropy{strength, 0.5F};
+                         return material;
+                       },
+                   .limit = 0.02,
+                   .asks = Effect::anisotropic_lobe};
+  };
+  return {stretched("stretched_0_5", "GGX of alpha 0.1 and anisotropy 0.5", {ggx, 0.1}, 0.5F),
+          stretched("stretched_1", "GGX of alpha 0.1 and anisotropy 1", {ggx, 0.1}, 1.0F),
+          stretched("stretched_1_beckmann", "Beckmann's lobe of alpha 0.1 and anisotropy 1", {beckmann, 0.1}, 1.0F)};
+}
+
 std::vector<NdfCase> width_cases() {
   const auto varying = [](const char* name, const char* description, NormalDistribution distribution, float one,
                           float other, double degrees) {
@@ -152,7 +172,8 @@ std::vector<NdfCase> size_cases() {
 std::span<const NdfCase> ndf_cases() {
   static const std::vector<NdfCase> cases = [] {
     std::vector<NdfCase> all;
-    for (const auto& part : {lobe_cases(), bump_cases(), two_lobe_cases(), width_cases(), texel_cases(), size_cases()})
+    for (const auto& part :
+         {lobe_cases(), bump_cases(), two_lobe_cases(), stretched_cases(), width_cases(), texel_cases(), size_cases()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -115,6 +115,26 @@ Scene surrounded(float sun, int width = 32) {
   return scene;
 }
 
+Scene stretched(float roughness, float strength) {
+  Scene scene = square(noise(16, 16, 0.5, 9), roughness);
+  scene.materials.front().anisotropy = Anisotropy{strength, 0.8F};
+  return scene;
+}
+
+// A light of area 1 m above, with these half sides and direction.
+Scene under_area(AreaShape shape, const glm::vec2& half_size, const glm::vec3& direction, AreaIntegral integral) {
+  Scene scene = bumpy();
+  AreaLight light{.shape = shape, .position = {0.3F, 0.2F, 1.0F}, .direction = direction};
+  light.up = glm::vec3(0.0F, 1.0F, 0.0F);
+  light.across = glm::cross(light.up, direction);
+  light.half_size = half_size;
+  light.integral = integral;
+  scene.lights = {light};
+  return scene;
+}
+
+constexpr glm::vec3 downwards{0.0F, 0.0F, -1.0F}, sideways{1.0F, 0.0F, 0.0F};
+
 Scene varying_roughness() {
   Scene scene = bumpy();
   Image map(16, 16, 2, 0.0F);
@@ -215,6 +235,31 @@ std::span<const PictureCase> picture_cases() {
         {"degenerate_triangles", "points, lines, one uv everywhere, a mirrored map", degenerate},
         {"environment_with_a_sun", "one texel of 1e6 in an environment of zeros", [] { return surrounded(1e6F); }},
         {"environment_with_a_small_sun", "one texel of 1e6 in 512 columns", [] { return surrounded(1e6F, 512); }},
+        {"anisotropy_1_of_a_mirror", "anisotropy 1 over roughness 0", [] { return stretched(0.0F, 1.0F); }},
+        {.name = "anisotropy_1_of_alpha_1",
+         .description = "anisotropy 1 over roughness 1: the picture of round lobes",
+         .scene = [] { return stretched(1.0F, 1.0F); },
+         .twin = [] { return square(noise(16, 16, 0.5, 9), 1.0F); }},
+        {.name = "anisotropy_0",
+         .description = "anisotropy 0: the picture of round lobes",
+         .scene = [] { return stretched(0.4F, 0.0F); },
+         .twin = bumpy},
+        {"area_light_without_area", "a rectangle of light of no size",
+         [] {
+           return under_area(AreaShape::rectangle, {0.0F, 0.0F}, downwards, AreaIntegral::lobes);
+         }},
+        {"area_light_of_a_line", "a rectangle of light of no height, by points",
+         [] {
+           return under_area(AreaShape::rectangle, {0.5F, 0.0F}, downwards, AreaIntegral::points);
+         }},
+        {"area_light_edge_on", "a disk of light that is seen edge on",
+         [] {
+           return under_area(AreaShape::disk, {0.5F, 0.5F}, sideways, AreaIntegral::lobes);
+         }},
+        {"area_light_through_the_surface", "a disk of light that goes through the surface",
+         [] {
+           return under_area(AreaShape::disk, {3.0F, 3.0F}, sideways, AreaIntegral::lobes);
+         }},
         {"heights_1x1", "a height map of one texel: nothing to filter",
          [] { return square(normals_of_heights(Image(1, 1, 1, 7.0F), 100.0), 0.4F); }, true},
         {.name = "heights_step",

@@ -54,7 +54,7 @@ std::string functions_of(NormalDistribution distribution, GeometryTerm geometry 
   for (const Effect effect : {Effect::diffuse, Effect::fresnel, Effect::masking_shadowing})
     variant.effects.set(static_cast<std::size_t>(effect));
   const Options options(
-      {word_option("roughness", {"shading", "stretched"}, ""), word_option("variant", {"lean", "clean"}, ""),
+      {word_option("roughness", {"shading", "stretched", "moments"}, ""), word_option("variant", {"lean", "clean"}, ""),
        word_option("storage", {"fp32", "fp16", "unorm8"}, ""), word_option("moment", {"total", "corrected"}, "")},
       {}, "test");
   return "vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, options), module);

@@ -249,7 +249,7 @@ const std::vector<Case> animate_cases{
     {.name = "AngleOfAZoom",
      .arguments = animate({"--method", "direct", "--degrees", "30"}),
      .exit_code = 2,
-     .errors_have = {"--degrees: nothing turns in a zoom"}},
+     .errors_have = {"--degrees: this path does not turn"}},
     {.name = "ZoomOfAnOrbit",
      .arguments = animate({"--method", "direct", "--path", "orbit", "--from", "2"}),
      .exit_code = 2,

@@ -83,6 +83,10 @@ void add_means(Limits& limits) {
 void add_pictures(Limits& limits) {
   limits.add({"cells", "ndf_atlas", "tan_gmm"}, {"mirrored_uvs"}, "twin", 0.11,
              "the fit depends on the order of texels: a mirrored map leads to another minimum");
+  limits.add(
+      {"lean"}, {"anisotropy_1_of_alpha_1"}, "twin", 0.003,
+      "the geometry factor of an anisotropic base lobe has the width towards each direction, that of a round one "
+      "the mean of all");
   limits.add({"naive_mip", "fixed_brdf", "roughness_bake", "specular_aa"}, {"steep_plaster"}, "mean", 6.0,
              "the mean of steep sides is level, and lit as a level surface");
   limits.add({"direct"}, {"steep_plaster"}, "mean", 2.2, "between two texels it blends their normals, to a level one");

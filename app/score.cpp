@@ -149,6 +149,8 @@ std::optional<std::size_t> tested(const ScoreArguments& arguments, const ScoredP
   if (reference.standard_error.empty())
     throw Error(ErrorKind::usage, "--significance", "the noise of the reference is not known",
                 "give --standard-error, or a reference that `footprint compare` wrote");
+  if (!arguments.picture_error.empty() && arguments.pictures.size() > 1)
+    throw Error(ErrorKind::usage, "--picture-error", "it is the noise of one image", "score the images one by one");
   const Image own = arguments.picture_error.empty() ? Image() : read_standard_error(arguments.picture_error);
   return rejected_pixels(
       picture.radiance, reference.picture,
@@ -220,6 +222,11 @@ std::string scores_table(const Scores& scores) {
     for (const ScoreMetric& metric : score_metrics()) rows.back().push_back(cell(metric.value(score)));
   }
   std::string text = markdown_table(columns, rows);
+  for (const PictureScore& score : scores.pictures) {
+    if (score.rejected)
+      text += fmt::format("\n{}: {} of {} pixels are off by more than noise.\n", score.name, *score.rejected,
+                          scores.pixels);
+  }
   if (!scores.pair) return text;
   return text +
          fmt::format("\nThe first is closer to the reference in {:.1f}% of the pixels, the second in {:.1f}%{}\n",
@@ -240,13 +247,14 @@ void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
 
 // The images of a folder that have a known format, by their paths in it.
 std::vector<fs::path> images_in(const fs::path& folder) {
-  constexpr std::array<std::string_view, 9> known{".exr", ".hdr",  ".png", ".jpg", ".jpeg",
-                                                  ".tif", ".tiff", ".bmp", ".webp"};
   std::vector<fs::path> images;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    const bool is_image = std::ranges::find(known, lower_extension(entry.path())) != known.end();
-    if (entry.is_regular_file() && is_image) images.push_back(entry.path().lexically_relative(folder));
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored) && names_an_image(entry->path()))
+      images.push_back(entry->path().lexically_relative(folder));
   }
+  if (error) throw Error(ErrorKind::usage, folder.string(), error.message(), "give a folder that can be read");
   std::ranges::sort(images);
   return images;
 }

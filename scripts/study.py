@@ -132,6 +132,52 @@ def wrapped(text):
     return "\n".join(lines)
 
 
+# ---- charts
+
+class LogChart:
+    """An SVG with logarithmic axes over points (x, y), all above 0."""
+
+    def __init__(self, points, titles, ticks):
+        """titles, ticks: of x and of y; only ticks within the points are drawn."""
+        self.ends = [(math.log(min(values)) - 0.15, math.log(max(values)) + 0.15) for values in zip(*points)]
+        self.svg = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 540" font-family="sans-serif" font-size="11">',
+                    '<rect width="960" height="540" fill="white"/>',
+                    f'<text x="420" y="525" text-anchor="middle">{titles[0]}</text>',
+                    f'<text x="15" y="250" text-anchor="middle" transform="rotate(-90 15 250)">{titles[1]}</text>']
+        for axis in (0, 1):
+            for tick in ticks[axis]:
+                if self.ends[axis][0] < math.log(tick) < self.ends[axis][1]:
+                    self._add_tick(axis, tick)
+
+    def _place(self, value, axis):
+        low, high = self.ends[axis]
+        share = (math.log(value) - low) / (high - low)
+        return 60 + 720 * share if axis == 0 else 480 - 460 * share
+
+    def _add_tick(self, axis, tick):
+        at = self._place(tick, axis)
+        line, text = (f"M{at:.1f} 20V480", f'x="{at:.1f}" y="496"') if axis == 0 else (f"M60 {at:.1f}H780", f'x="28" y="{at:.1f}"')
+        self.svg.append(f'<path d="{line}" stroke="#dddddd"/><text {text}>{tick:g}</text>')
+
+    def add_line(self, points, colour):
+        places = " ".join(f"{self._place(x, 0):.1f},{self._place(y, 1):.1f}" for x, y in points)
+        self.svg.append(f'<polyline points="{places}" fill="none" stroke="{colour}"/>')
+
+    def add_point(self, point, colour, radius=3, title="", label=""):
+        x, y = (self._place(value, axis) for axis, value in enumerate(point))
+        self.svg.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius}" fill="{colour}"><title>{title}</title></circle>')
+        if label:
+            self.svg.append(f'<text x="{x + 6:.1f}" y="{y - 4:.1f}" font-size="9">{label}</text>')
+
+    def add_legend(self, colours):
+        """colours: {name: colour}."""
+        for i, (name, colour) in enumerate(colours.items()):
+            self.svg.append(f'<circle cx="800" cy="{40 + 20 * i}" r="4" fill="{colour}"/><text x="812" y="{44 + 20 * i}">{name}</text>')
+
+    def write(self, file):
+        file.write_text("\n".join(self.svg + ["</svg>"]) + "\n", encoding="utf-8")
+
+
 # ---- records of a study over footprint filters
 
 def grouped(pairs):

@@ -10,6 +10,8 @@
 #include "experiments/studies/brdf_edit.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
@@ -44,12 +46,7 @@ Material material_of(NormalDistribution distribution) {
 std::string refusal(const std::map<std::string, std::string>& values, const Material& material) {
   Scene scene;
   scene.materials = {material};
-  try {
-    set_brdf(values, nullptr, scene);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::usage_error([&] { set_brdf(values, nullptr, scene); });
 }
 
 TEST(BrdfEdit, SetsParametersOfAllMaterials) {
@@ -81,7 +78,7 @@ TEST(BrdfEdit, MixesMeasuredTables) {
 }
 
 TEST(BrdfEdit, RefusesWhatAMaterialDoesNotHave) {
-  const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
+  using test::says;
   EXPECT_TRUE(
       says(refusal({{"exponent", "9"}}, material_of(NormalDistribution::ggx)), "cloth has another distribution"));
   EXPECT_TRUE(says(refusal({{"measured", "0"}}, material_of(NormalDistribution::ggx)), "has no small-scale geometry"));

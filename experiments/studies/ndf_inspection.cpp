@@ -31,16 +31,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> scene_extensions{".toml", ".gltf", ".glb"};
-constexpr std::array<std::string_view, 10> map_extensions{".exr",  ".png", ".jpg",  ".jpeg", ".tif",
-                                                          ".tiff", ".bmp", ".webp", ".hdr",  ".tga"};
 constexpr double default_exponent = 64.0;
 
 // By its extension, or because it is a file and not a scene.
 bool names_a_map(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  if (std::ranges::find(map_extensions, extension) != map_extensions.end()) return true;
+  if (names_an_image(path)) return true;
   std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && std::ranges::find(scene_extensions, extension) == scene_extensions.end();
+  return fs::is_regular_file(path, ignored) &&
+         std::ranges::find(scene_extensions, lower_extension(path)) == scene_extensions.end();
 }
 
 NdfSource load_map(const NormalFile& map) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -55,6 +56,8 @@ ScoreLimit parse_score_limit(const std::string& text) {
   ScoreLimit limit{.text = text, .name = text.substr(0, equals)};
   limit.most = number_in(text.substr(equals + 1), place, -1e300, 1e300);
   limit.parameter = take_parameter(limit.name, place);
+  if (limit.name == "psnr")
+    throw Error(ErrorKind::usage, place, "a larger PSNR is better, so it has no upper limit", "limit normalized_color");
   if (limit.name == "p" || limit.name == share_prefix || limit.name == rejected_name ||
       metric_named(limit.name) != nullptr)
     return limit;
@@ -65,7 +68,10 @@ ScoreLimit parse_score_limit(const std::string& text) {
 }
 
 std::optional<double> figure_of(const ScoreLimit& limit, const PictureScore& score) {
-  if (const ScoreMetric* metric = metric_named(limit.name)) return metric->value(score);
+  if (const ScoreMetric* metric = metric_named(limit.name)) {
+    const std::optional<double> value = metric->value(score);
+    return value ? std::optional(std::abs(*value)) : value;
+  }
   if (limit.name == "p") return error_percentile(score, limit.parameter);
   if (limit.name == rejected_name) {
     if (!score.rejected) return {};

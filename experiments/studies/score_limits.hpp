@@ -11,9 +11,9 @@
 
 namespace footprint {
 
-/// A limit as `--max NAME=VALUE` writes it. NAME is a measure of score_metrics(), `pN` (the Nth percentile of the
-/// normalised colour error over object pixels, 0 to 100), `share_above:E` (the share of object pixels whose error is
-/// above E), or `rejected` (pixels that the test per pixel rejects).
+/// A limit as `--max NAME=VALUE` writes it. NAME is a measure of score_metrics() (its absolute value; not `psnr`), `pN`
+/// (the Nth percentile of the normalised colour error over object pixels, 0 to 100), `share_above:E` (the share of
+/// object pixels whose error is above E), or `rejected` (pixels that the test per pixel rejects).
 struct ScoreLimit {
   std::string text;  ///< as written
   std::string name;

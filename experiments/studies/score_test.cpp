@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/studies/score_limits.hpp"
-#include "renderer/core/error.hpp"
+#include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
 namespace {
@@ -154,6 +154,8 @@ TEST(ScoreLimits, AreAboutMeasuresPercentilesSharesAndTests) {
   PictureScore score = score_of({0.0F, 0.1F, 0.2F, 0.5F});
   const auto figure = [&](const std::string& text) { return figure_of(parse_score_limit(text), score); };
   EXPECT_EQ(figure("normalized_color=1"), 0.2);
+  score.error.energy_bias = -0.5;
+  EXPECT_EQ(figure("energy_bias=0.1"), 0.5) << "a loss of energy counts too";
   EXPECT_EQ(figure("p50=1"), 0.1F);
   EXPECT_EQ(figure("p75.1=1"), 0.5F);
   EXPECT_EQ(figure("p0=1"), 0.0F);
@@ -178,20 +180,17 @@ TEST(ScoreLimits, FailAboveTheirValue) {
 }
 
 TEST(ScoreLimits, RefuseWhatTheyAreNot) {
-  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{{"p99", "NAME=VALUE"},
-                                                                                    {"=1", "NAME=VALUE"},
-                                                                                    {"ldr_flp=1", "ldr_flip"},
-                                                                                    {"p101=1", "0 to 100"},
-                                                                                    {"share_above:2=1", "0 to 1"},
-                                                                                    {"p99=nan", "not a number"},
-                                                                                    {"p99=", "not a number"}}) {
-    try {
-      (void)parse_score_limit(text);
-      ADD_FAILURE() << text;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-    }
+  for (const auto& [text, words] :
+       std::vector<std::pair<std::string, std::string>>{{"p99", "NAME=VALUE"},
+                                                        {"=1", "NAME=VALUE"},
+                                                        {"ldr_flp=1", "ldr_flip"},
+                                                        {"psnr=30", "larger PSNR is better"},
+                                                        {"p101=1", "0 to 100"},
+                                                        {"share_above:2=1", "0 to 1"},
+                                                        {"p99=nan", "not a number"},
+                                                        {"p99=", "not a number"}}) {
+    EXPECT_NE(test::usage_error([&text = text] { return parse_score_limit(text); }).find(words), std::string::npos)
+        << text;
   }
 }
 

@@ -199,11 +199,15 @@ Scene scene_of_run(const RunSettings& settings) {
     return load_scene(settings.scene, settings.scene_library, settings.overrides);
   const Scene first = scene_at_time(settings, first_time(settings), {});
   Bounds bounds = first.bounds;
+  bool casts = false;
   for (const RunView& view : run_views(settings, first)) {
-    const Bounds own = scene_at_time(settings, view.seconds, {}).bounds;
-    bounds = {glm::min(bounds.lower, own.lower), glm::max(bounds.upper, own.upper)};
+    const Scene posed = scene_at_time(settings, view.seconds, {});
+    bounds = {glm::min(bounds.lower, posed.bounds.lower), glm::max(bounds.upper, posed.bounds.upper)};
+    casts = casts || casts_shadows(posed);
   }
-  return scene_at_time(settings, first_time(settings), bounds);
+  Scene scene = scene_at_time(settings, first_time(settings), bounds);
+  if (casts && !scene.shadows.cast) scene.shadows.cast = true;
+  return scene;
 }
 
 Scene scene_for_path(const RunSettings& settings, Scene scene) {

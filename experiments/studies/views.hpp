@@ -46,7 +46,8 @@ struct RunView {
 [[nodiscard]] std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view,
                                     const std::string& what);
 
-/// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames.
+/// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames and with
+/// shadows where any frame has them.
 /// Errors: as load_scene.
 [[nodiscard]] Scene scene_of_run(const RunSettings& settings);
 

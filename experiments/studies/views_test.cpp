@@ -107,6 +107,25 @@ TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames
   EXPECT_EQ(part[3].seconds, 1.5);
 }
 
+// A quad that comes to 1 m above another one, under light from straight above.
+TEST(RunViews, AnAnimationCastsShadowsIfAnyOfItsFramesDoes) {
+  test::GltfBuilder file = test::make_quad();
+  const int input = file.add_floats({0, 1}, "SCALAR"), output = file.add_floats({10, 0, 1, 0, 0, 1}, "VEC3");
+  file.json["nodes"].push_back({{"mesh", 0}});
+  file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  file.json["scenes"] = {{{"nodes", {0, 1, 2}}}};
+  file.json["scene"] = 0;
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
+  file.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}},
+                              {"samplers", {{{"input", input}, {"output", output}}}}}};
+  RunSettings run = path_of(AnimationPath::animation, 2);
+  run.scene = file.write().string();
+  EXPECT_EQ(scene_of_run(run).shadows.cast, true);
+  run.path.until = 0.1;  // 9 m beside it
+  EXPECT_FALSE(scene_of_run(run).shadows.cast.has_value());
+}
+
 TEST(RunViews, WhatAPathHasNoUseForIsRefused) {
   RunSettings zoom = path_of(AnimationPath::zoom, 2);
   zoom.path.degrees = 5;

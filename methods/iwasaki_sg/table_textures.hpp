@@ -15,8 +15,9 @@ namespace footprint::iwasaki_sg {
 [[nodiscard]] Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
                                          const Progress& progress);
 
-/// The bake of a material after its base BRDF changed. Visibility, normals and their amplitudes stay (Iwasaki et al.
-/// 2012, section 5): only the lobes of the BRDF are made again. before: its bake with the same options and effects.
+/// The bake of a material after its base BRDF changed. Visibility, normals and their amplitudes stay, because they do
+/// not depend on it (Iwasaki et al. 2012): only the lobes of the BRDF are made again. before: its bake with the same
+/// options and effects.
 [[nodiscard]] Prefiltered with_other_brdf(const Prefiltered& before, const Material& material, const Options& options,
                                           const EffectSet& effects);
 

@@ -18,6 +18,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
@@ -296,6 +297,12 @@ bool is_exr(const std::filesystem::path& file) {
   std::array<char, 4> first{};
   std::ifstream(file, std::ios::binary).read(first.data(), first.size());
   return first == magic;
+}
+
+bool names_an_image(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 10> known{".exr",  ".png", ".jpg",  ".jpeg", ".tif",
+                                                   ".tiff", ".bmp", ".webp", ".hdr",  ".tga"};
+  return std::ranges::find(known, lower_extension(file)) != known.end();
 }
 
 Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer, int max_side) {

@@ -33,6 +33,9 @@ enum class Transfer {
 /// Whether a file is an EXR, by its first bytes; false if it cannot be read.
 [[nodiscard]] bool is_exr(const std::filesystem::path& file);
 
+/// Whether a file's name has the extension of an image that read_image may read.
+[[nodiscard]] bool names_an_image(const std::filesystem::path& file);
+
 /// Writes 1, 3 or 4 channels as 32-bit float EXR (zip), atomically. Throws Error (machine): the folder cannot be
 /// written, the disk is full.
 void write_exr(const std::filesystem::path& file, const Image& image);

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -118,8 +119,8 @@ TEST(Gltf, ClearCoatsHaveFactorsAndMapsOfTheirOwn) {
   EXPECT_FALSE(model.materials.at(2).coat) << "a weight of 0, the default, is not a coat";
 }
 
-// KHR_materials_anisotropy: two factors. Its texture is named in a warning, and strength 0 is no anisotropy.
-TEST(Gltf, AnisotropyHasAStrengthAndARotation) {
+// KHR_materials_anisotropy: two factors, and a texture of directions and strengths. Strength 0 is no anisotropy.
+TEST(Gltf, AnisotropyHasAStrengthARotationAndATexture) {
   GltfBuilder quad = make_quad();
   quad.json["extensionsUsed"] = {"KHR_materials_anisotropy"};
   quad.json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -131,11 +132,33 @@ TEST(Gltf, AnisotropyHasAStrengthAndARotation) {
   EXPECT_TRUE(model.warnings.empty());
   EXPECT_EQ(model.materials.at(0).anisotropy, (Anisotropy{0.6F, 1.25F}));
   EXPECT_FALSE(loaded({{"anisotropyRotation", 1.25}}).materials.at(0).anisotropy) << "a strength of 0 is the default";
-  const int texture = quad.add_texture(one_colour({255.0F, 128.0F, 255.0F}));
-  const Model textured = loaded({{"anisotropyStrength", 0.6}, {"anisotropyTexture", {{"index", texture}}}});
-  EXPECT_EQ(textured.materials.at(0).anisotropy, (Anisotropy{0.6F, 0.0F}));
-  ASSERT_EQ(textured.warnings.size(), 1U);
-  EXPECT_NE(textured.warnings.front().find("the anisotropy texture images[0] is not read"), std::string::npos);
+  const auto textured = [&](const Image& texels) {
+    const int texture = quad.add_texture(texels);
+    return loaded(
+        {{"anisotropyStrength", 0.6}, {"anisotropyRotation", 0.5}, {"anisotropyTexture", {{"index", texture}}}});
+  };
+  const auto expect = [](const Model& read, float strength, float rotation) {
+    ASSERT_TRUE(read.materials.at(0).anisotropy);
+    EXPECT_NEAR(read.materials.at(0).anisotropy->strength, strength, 1e-6F);
+    EXPECT_NEAR(read.materials.at(0).anisotropy->rotation, rotation, 1e-6F);
+  };
+  // (x, y) = (1, 1) is 45 degrees, whatever its length; blue 51 is a fifth of the strength.
+  const Model constant = textured(one_colour({255.0F, 255.0F, 51.0F}));
+  EXPECT_TRUE(constant.warnings.empty());
+  expect(constant, 0.6F * 0.2F, 0.5F + std::numbers::pi_v<float> / 4.0F);
+  // Half along x at full strength, half along -x at none: the axis is x, and the mean of s^2 is a half.
+  Image halves = one_colour({255.0F, 127.5F, 255.0F});
+  for (std::size_t i = 0; i < 6; ++i) halves.texels[i] = std::array{0.0F, 127.5F / 255.0F, 0.0F}.at(i % 3);
+  const Model mixed = textured(halves);
+  ASSERT_EQ(mixed.warnings.size(), 1U);
+  EXPECT_NE(mixed.warnings.front().find("varies, and a material has one anisotropy"), std::string::npos);
+  ASSERT_TRUE(mixed.materials.at(0).anisotropy);
+  EXPECT_NEAR(mixed.materials.at(0).anisotropy->strength, 0.6F * std::sqrt(0.5F), 2e-3F);
+  // Axes across each other cancel: nothing is left that a single axis can represent.
+  Image crossed = one_colour({255.0F, 127.5F, 255.0F});
+  for (std::size_t i = 0; i < 6; ++i) crossed.texels[i] = std::array{127.5F / 255.0F, 1.0F, 1.0F}.at(i % 3);
+  const auto& none = textured(crossed).materials.at(0).anisotropy;
+  EXPECT_LT(none ? none->strength : 0.0F, 0.06F);
 }
 
 // KHR_materials_unlit: the base colour alone. What is about light is left out, without a warning.

@@ -119,6 +119,31 @@ Image decode_glossiness(const Image& stored, float glossiness_factor) {
   return map;
 }
 
+struct StretchTexture {
+  Anisotropy mean;
+  bool varies;  // by more than two codes of 8 bits
+};
+
+// Of KHR_materials_anisotropy: red and green are a direction, blue a strength s. Directions are axes, so that t and -t
+// are equal. A lobe is wider along its axis by (1 - alpha) s^2, and the mean is that of s^2 (cos 2 phi, sin 2 phi).
+StretchTexture read_stretch(const Image& texture) {
+  const Image rgb = to_rgb(texture);
+  glm::dvec2 sum(0.0);
+  glm::vec3 least(1.0F), most(0.0F);
+  for (std::size_t i = 0; i < rgb.texel_count(); ++i) {
+    const glm::vec3 texel = glm::make_vec3(&rgb.texels[3 * i]);
+    const glm::dvec2 t = 2.0 * glm::dvec2(texel) - 1.0;
+    const double strength = texel.b, length = std::max(glm::dot(t, t), 1e-12);
+    sum += strength * strength / length * glm::dvec2(t.x * t.x - t.y * t.y, 2.0 * t.x * t.y);
+    least = glm::min(least, texel);
+    most = glm::max(most, texel);
+  }
+  const double stretch = glm::length(sum) / static_cast<double>(rgb.texel_count());
+  return {.mean = {.strength = static_cast<float>(std::sqrt(stretch)),
+                   .rotation = static_cast<float>(0.5 * std::atan2(sum.y, sum.x))},
+          .varies = largest_channel(most - least) > 2.5F / 255.0F};
+}
+
 // 1 - max specular over a whole texture.
 float mean_rest(const Image& specular, const glm::vec3& factor) {
   double sum = 0.0;
@@ -300,22 +325,25 @@ void GltfMaterials::convert_coat(const tinygltf::Material& source, Material& mat
   material.coat = std::move(coat);
 }
 
-// KHR_materials_anisotropy: constants; its texture of directions and strengths is not read.
+// KHR_materials_anisotropy: strength and rotation, times and turned by the mean of its texture.
 void GltfMaterials::convert_anisotropy(const tinygltf::Material& source, Material& material) {
   const tinygltf::Value* const extension = extension_of(source, anisotropic);
   if (extension == nullptr) return;
-  const Anisotropy anisotropy{checked(number(*extension, "anisotropyStrength", 0.0), 0.0, 1.0, "anisotropyStrength"),
-                              checked(number(*extension, "anisotropyRotation", 0.0), -1e6, 1e6, "anisotropyRotation")};
-  if (anisotropy.strength == 0.0F) return;
-  material.anisotropy = anisotropy;
-  const int texture = texture_in(*extension, "anisotropyTexture").index;
-  if (texture < 0) return;
-  const int image = image_of(texture);
-  const std::string name = image < 0 ? fmt::format("textures[{}]", texture)
-                                     : image_name(document_.model.images[static_cast<std::size_t>(image)], image);
-  add_once(warnings_, fmt::format("the anisotropy texture {} is not read: its direction and strength are taken as "
-                                  "constant, those of the factors",
-                                  name));
+  Anisotropy anisotropy{checked(number(*extension, "anisotropyStrength", 0.0), 0.0, 1.0, "anisotropyStrength"),
+                        checked(number(*extension, "anisotropyRotation", 0.0), -1e6, 1e6, "anisotropyRotation")};
+  const TextureReference texture = texture_in(*extension, "anisotropyTexture");
+  if (const auto map = find_map(texture.index, texture.set, texture.extensions); map && anisotropy.strength > 0.0F) {
+    const StretchTexture read = read_stretch(stored(image_of(texture.index), Transfer::linear));
+    anisotropy.strength *= read.mean.strength;
+    anisotropy.rotation += read.mean.rotation;
+    if (read.varies) {
+      add_once(warnings_,
+               fmt::format("the anisotropy texture {} varies, and a material has one anisotropy: its mean is used, a "
+                           "strength of {:.3g} at {:.3g} degrees",
+                           map->name, anisotropy.strength, glm::degrees(anisotropy.rotation)));
+    }
+  }
+  if (anisotropy.strength > 0.0F) material.anisotropy = anisotropy;
 }
 
 void GltfMaterials::convert_alpha(const tinygltf::Material& source, Material& material) {

@@ -125,6 +125,9 @@ class RealMaps(unittest.TestCase):
         self.assertEqual([json.loads(member.read_text())["pairs"] for member in members], [[], []], "more than 24 methods")
         again = self.study()
         self.assertEqual(again.stdout, done.stdout, "bootstraps are seeded")
+        page = self.folder / "page.md"
+        page.write_text("# Page\n\n## Maps for development\n\nOld.\n\n## Held-out maps\n\nOld too.\n", encoding="utf-8")
+        self.assertEqual(self.study("--keep", page).stdout, done.stdout.replace("Not run.", "Old too."))
         self.quick_model_of_these()
 
     def quick_model_of_these(self):

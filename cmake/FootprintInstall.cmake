@@ -1,6 +1,7 @@
-# The files that `cmake --install` and CPack put under a prefix, in two components:
+# The files that `cmake --install` and CPack put under a prefix, in three components:
 #   runtime      the program, scenes, experiments, published figures, documents, manual pages, shell completions
 #   development  headers, libraries and find_package(Footprint) for methods out of the tree
+#   python       the package that runs the program from Python, and its example
 include(GNUInstallDirs)
 set(CMAKE_INSTALL_DOCDIR "${CMAKE_INSTALL_DATADIR}/doc/footprint")
 
@@ -59,4 +60,11 @@ function(footprint_install_development)
   configure_file("${FOOTPRINT_CMAKE_DIR}/FootprintConfig.cmake.in" "${PROJECT_BINARY_DIR}/installed/FootprintConfig.cmake"
                  @ONLY)
   install(FILES "${PROJECT_BINARY_DIR}/installed/FootprintConfig.cmake" DESTINATION "${config}" COMPONENT development)
+endfunction()
+
+# footprint_install_python(): where Debian's Python looks, and any other by PYTHONPATH.
+function(footprint_install_python)
+  install(DIRECTORY python/footprint DESTINATION lib/python3/dist-packages COMPONENT python FILES_MATCHING PATTERN "*.py")
+  install(DIRECTORY python/examples DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/python3-footprint" COMPONENT python)
+  install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/python3-footprint" RENAME copyright COMPONENT python)
 endfunction()

@@ -15,7 +15,7 @@ import unittest
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
 PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
 
-FENCE = re.compile(r"(?P<slow>^<!-- slow -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"(?P<slow>^<!-- slow -->\n)?(?:^<!-- file: (?P<file>[\w.]+) -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 N = r"[-+]?\d+(?:\.\d+)?"
 # Times: "1.6 (1.5-1.7)", "1.6 times", "0.3 s", "12 ms".
@@ -26,7 +26,9 @@ ROUNDING = 1e-6
 
 def run(*words, folder=None):
     done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False, cwd=folder)
-    return done.stdout if done.returncode == 0 else f"exit code {done.returncode}: {done.stderr}"
+    if done.returncode == 0:
+        return done.stdout
+    return "\n".join([done.stdout + "".join(done.stderr.splitlines()[-1:]), f"exit code {done.returncode}"])
 
 
 @functools.cache
@@ -53,6 +55,8 @@ def is_close(shown, printed):
 
 
 def is_same_line(shown, printed):
+    if shown.startswith("exit code "):
+        return shown == printed
     shown, printed = simplified(shown), simplified(printed)
     numbers, found = NUMBER.findall(shown), NUMBER.findall(printed)
     return (NUMBER.sub("#", shown) == NUMBER.sub("#", printed) and
@@ -137,6 +141,8 @@ def faults_of(name, text, run_examples):
     with tempfile.TemporaryDirectory() as folder:
         for block in FENCE.finditer(text):
             line = text.count("\n", 0, block.start("text")) + 1
+            if block["file"]:
+                pathlib.Path(folder, block["file"]).write_text(block["text"], encoding="utf-8")
             for command, shown in commands_of(block):
                 if fault := command_fault(command):
                     yield f"{name}:{line}: {command}: {fault}"
@@ -243,6 +249,11 @@ class Comparison(unittest.TestCase):
                          ["a.md:4: footprint surface bumps --resolution 8 -o a.exr: shows `b.exr`, prints `a.exr`"])
         self.assertEqual(list(faults_of("a.md", text.replace("b.exr", "a.exr"), True)), [])
         self.assertEqual(list(faults_of("a.md", text.replace("```console", "<!-- slow -->\n```console"), True)), [])
+
+    def test_files_of_a_document_are_there_and_failures_are_shown(self):
+        text = "<!-- file: a.toml -->\n```toml\n[experiment]\n```\n```console\n$ footprint check a.toml\n%s\nexit code %d\n```\n"
+        self.assertIn("prints `footprint: a.toml:1: `title`", "".join(faults_of("a.md", text % ("nothing", 2), True)))
+        self.assertIn("shows `exit code 1`", "".join(faults_of("a.md", text % ("...", 1), True)))
 
     def test_options_that_differ_are_reported(self):
         method = {"name": "m", "options": [{"name": "k", "default": 3.0, "minimum": 1, "maximum": 9},

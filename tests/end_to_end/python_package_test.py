@@ -181,7 +181,26 @@ class PythonPackage(WholeRunTest):
                                      distance=4, **SMALL)
         self.assertEqual(advice["schema"], "footprint-recommend/1")
 
+    def stand_in(self, name, command):
+        """The environment with a shell command instead of the program."""
+        file = self.folder / name
+        file.write_text(f"#!/bin/sh\n{command}\n", encoding="utf-8")
+        file.chmod(0o755)
+        return mock.patch.dict(os.environ, FOOTPRINT_PROGRAM=str(file))
+
+    def test_keyword_arguments_become_options(self):
+        with self.stand_in("echo", "printf '%s\\n' \"$@\""):
+            words = footprint.run_program("x", pathlib.Path("a b"), from_=1, no_cache=True, quiet=False, seed=None,
+                                          distance=numpy.array([0.5, 2]), max={"p99": 0.05, "rejected": 0}, axis=(-1, 0, 0))
+        self.assertEqual(words.splitlines(), ["x", "a b", "--from=1", "--no-cache", "--distance=0.5,2.0", "--max=p99=0.05",
+                                              "--max=rejected=0", "--axis=-1,0,0"])
+
     # Errors.
+
+    def test_a_program_that_is_killed_is_reported(self):
+        with self.stand_in("killed", "kill -9 $$"), self.assertRaisesRegex(footprint.Error, "killed ended with -9") as caught:
+            footprint.run_program("list")
+        self.assertEqual(caught.exception.exit_code, -9)
 
     def test_a_wrong_option_is_the_programs_error(self):
         command = [PROGRAM, "compare", "ribbed_plane", "--methds=lean"]

@@ -55,6 +55,7 @@ look_at_texts() {
   [ -s "$prefix/share/doc/footprint/README.md" ] || fail "no README.md"
   [ -s "$prefix/share/doc/footprint/docs/metrics.md" ] || fail "no documents where README.md looks for them"
   [ -s "$prefix/share/doc/footprint/copyright" ] || fail "no licence"
+  [ -s "$prefix/lib/python3/dist-packages/footprint/__init__.py" ] || fail "no Python package"
 }
 
 build_method() {

@@ -45,6 +45,32 @@ class TestScript(unittest.TestCase):
         self.assertIn("--all", done.stderr)
 
 
+class CiScript(InFolder):
+    """The commands of the action with a stand-in for the program."""
+
+    def script(self, file, *words):
+        return subprocess.run([sys.executable, SOURCE / "packaging/ci_script.py", file, *words], capture_output=True, text=True, check=False)
+
+    def test_the_action_passes_arguments_and_exit_code(self):
+        (self.folder / "footprint").write_text("#!/bin/sh\nprintf '%s\\n' \"$@\"\nexit 1\n", encoding="utf-8")
+        (self.folder / "footprint").chmod(0o755)
+        made = self.script(SOURCE / "integrations/github/action.yml", "arguments=score a*  $HOME\n --max p99=0.05", "junit=j k.xml")
+        environment = os.environ | {"PATH": f"{self.folder}:{os.environ['PATH']}"}
+        done = subprocess.run(["bash"], input=made.stdout, capture_output=True, text=True, check=False, env=environment)
+        self.assertEqual((done.returncode, done.stdout.splitlines()),
+                         (1, ["score", "a*", "$HOME", "--max", "p99=0.05", "--github", "--junit", "j k.xml"]))
+
+    def test_what_it_does_not_know_is_refused(self):
+        action = (SOURCE / "integrations/github/action.yml").read_text(encoding="utf-8")
+        (self.folder / "action.yml").write_text(action.replace("    - name: Run", "    - uses: a/b@v1\n      name: Run"), encoding="utf-8")
+        (self.folder / "Containerfile").write_text("FROM debian\nADD a b\n", encoding="utf-8")
+        for words, fault in ((["action.yml", "arguments=score a"], "Run Footprint: only"), (["action.yml"], r"needs \['arguments'\]"),
+                             (["action.yml", "arguments=a", "argument=a"], r"no \['argument'\]"), (["Containerfile", "/"], "ADD: not")):
+            done = self.script(self.folder / words[0], *words[1:])
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, fault)
+
+
 class PictureHashes(InFolder):
     def setUp(self):
         super().setUp()

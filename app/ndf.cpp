@@ -100,6 +100,7 @@ void run_ndf(const NdfArguments& arguments) {
     NdfResults measured = inspect_ndf(source, settings, folder.path(), display.callback());
     measured.version = FOOTPRINT_VERSION;
     write_file_atomically(folder.path() / "ndf.json", ndf_json(measured));
+    write_file_atomically(folder.path() / "index.html", ndf_page(measured));
     keep(folder);
     return measured;
   });
@@ -141,7 +142,7 @@ void add_ndf_command(CLI::App& app) {
   command->add_option("--picture-size", arguments->picture_size, "Side of the images in pixels")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Folder for ndf.json, ndf.png, images/")
+  command->add_option("-o,--output", arguments->output, "Folder for index.html, ndf.json, ndf.png, images/")
       ->type_name("DIR")
       ->required();
   add_quiet_flag(*command, arguments->quiet);

@@ -30,9 +30,11 @@
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/image/pixel_script.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/check_outcomes.hpp"
 #include "results/report/markup.hpp"
+#include "results/report/page.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -133,6 +135,7 @@ Reference given_reference(const ScoreArguments& arguments) {
 
 struct Scores {
   std::string reference;
+  std::vector<Image> radiance;  // of the reference and of each image, for the page; empty without a folder
   std::vector<PictureScore> pictures;
   std::optional<PairScore> pair;
   float exposure = 1.0F;
@@ -178,6 +181,9 @@ Scores take_scores(const ScoreArguments& arguments) {
     out.pair = score_pair(pictures[0], pictures[1], reference.picture, reference.standard_error, out.exposure);
   }
   out.pixels = object_pixel_count(reference.picture);
+  if (arguments.output.empty()) return out;
+  out.radiance.push_back(std::move(reference.picture));
+  for (ScoredPicture& picture : pictures) out.radiance.push_back(std::move(picture.radiance));
   return out;
 }
 
@@ -213,15 +219,19 @@ Json scores_json(const ScoreArguments& arguments, const Scores& scores) {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "n/a"; }
 
-std::string scores_table(const Scores& scores) {
-  std::vector<MarkdownColumn> columns{{"Image", false}};
-  std::vector<std::vector<std::string>> rows;
-  for (const ScoreMetric& metric : score_metrics()) columns.push_back({std::string(metric.title)});
+Table table_of(const Scores& scores) {
+  Table table{.heading = {}, .columns = {{"Image", false}}, .rows = {}};
+  for (const ScoreMetric& metric : score_metrics()) table.columns.push_back({std::string(metric.title)});
   for (const PictureScore& score : scores.pictures) {
-    rows.push_back({score.name});
-    for (const ScoreMetric& metric : score_metrics()) rows.back().push_back(cell(metric.value(score)));
+    table.rows.push_back({score.name});
+    for (const ScoreMetric& metric : score_metrics()) table.rows.back().push_back(cell(metric.value(score)));
   }
-  std::string text = markdown_table(columns, rows);
+  return table;
+}
+
+std::string scores_table(const Scores& scores) {
+  const Table table = table_of(scores);
+  std::string text = markdown_table(table.columns, table.rows);
   for (const PictureScore& score : scores.pictures) {
     if (score.rejected)
       text += fmt::format("\n{}: {} of {} pixels are off by more than noise.\n", score.name, *score.rejected,
@@ -243,6 +253,42 @@ void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
       write_png(folder / fmt::format("hdr_flip_{}.png", i + 1), false_color(score.hdr_map, 1.0F));
   }
   if (scores.pair) write_png(folder / "closer.png", verdict_picture(scores.pair->verdicts, scores.pair->object));
+}
+
+PageImage page_image(const fs::path& folder, const std::string& name, const std::string& stem, const Image& radiance,
+                     float exposure) {
+  write_png(folder / (stem + ".png"), to_display(radiance, exposure));
+  write_pixel_script(folder / (stem + "_values.js"), radiance);
+  return {.name = name, .png = stem + ".png", .values = stem + "_values.js"};
+}
+
+// "a.png has the least error, 0.0123." of two images.
+std::string answer_of(const Scores& scores) {
+  const auto error = [](const PictureScore& score) { return score.error.normalized_color; };
+  const PictureScore& best = *std::ranges::min_element(scores.pictures, {}, error);
+  return fmt::format("{} {} {:.4g} against {}.", best.name,
+                     scores.pictures.size() > 1 ? "has the least error," : "has error", error(best), scores.reference);
+}
+
+void write_page(const fs::path& folder, const Scores& scores) {
+  PageView view{.label = "image",
+                .images = {page_image(folder, "reference", "reference", scores.radiance.front(), scores.exposure)}};
+  for (std::size_t i = 0; i < scores.pictures.size(); ++i) {
+    view.images.push_back(page_image(folder, scores.pictures[i].name, fmt::format("image_{}", i + 1),
+                                     scores.radiance.at(i + 1), scores.exposure));
+    view.images.back().flip = fmt::format("ldr_flip_{}.png", i + 1);
+    view.images.back().caption = fmt::format("error {:.4g}", scores.pictures[i].error.normalized_color);
+  }
+  const Page page{.title = "Scores against " + scores.reference,
+                  .eyebrow = "images against a reference",
+                  .lede = fmt::format("{} pixels, exposure {:.4g}.", scores.pixels, scores.exposure),
+                  .text = scores_table(scores),
+                  .answer = {answer_of(scores)},
+                  .views = {std::move(view)},
+                  .exposure = scores.exposure,
+                  .sections = {{.heading = "Measures", .table = table_of(scores)}},
+                  .provenance = {{"Version", fmt::format("footprint {}", FOOTPRINT_VERSION)}}};
+  write_file_atomically(folder / "index.html", page_html(page, {}));
 }
 
 // The images of a folder that have a known format, by their paths in it.
@@ -299,6 +345,7 @@ void write_scores(const ScoreArguments& arguments, std::span<const Scores> all, 
     fs::create_directories(out.path() / part);
     write_file_atomically(out.path() / part / "score.json", json_text(scores_json(arguments, scores), 2));
     write_pictures(out.path() / part, scores);
+    write_page(out.path() / part, scores);
   }
   out.commit();
 }
@@ -382,7 +429,7 @@ void add_score_command(CLI::App& app) {
                    "Pixels per degree of the observer's field of view, for FLIP")
       ->check(within(5.0, 1000.0))
       ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Folder for score.json and images; default: none")
+  command->add_option("-o,--output", arguments->output, "Folder for index.html, score.json and images; default: none")
       ->type_name("DIR");
   add_quiet_flag(*command, arguments->quiet);
   command->footer(score_examples);

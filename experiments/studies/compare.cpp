@@ -137,13 +137,11 @@ std::string part_name(const Job& job, std::size_t i) {
   return is_animation(job.settings) ? frame_name(i) : fmt::format("distance_{}", job.views[i].distance);
 }
 
-// An animation has neither darker copies of its images nor others.
+// An animation has no images but those of its frames.
 std::vector<std::string> files_of(const RunSettings& settings, const DistanceResult& result) {
   std::vector<std::string> files;
   const auto add = [&](const std::string& exr) {
-    std::vector<std::string> own = exposable_files(exr);
-    if (is_animation(settings)) own.pop_back();
-    std::ranges::move(own, std::back_inserter(files));
+    std::ranges::move(page_picture_files(exr), std::back_inserter(files));
   };
   add(result.reference);
   for (const Record& record : result.records) {
@@ -201,12 +199,10 @@ Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& 
   bench.stage.context().check("rendering " + text);
   record = bench.measurer.measure(staged, pictures, target, exposure);
   const std::string stem = view_stem(job.settings, target.index, target.at, method_stem(job.settings.methods, index));
-  if (is_animation(job.settings)) {
-    record.images.color = write_picture(job.folder, stem, pictures.frame, exposure);
-  } else {
+  record.images.color = write_page_picture(job.folder, stem, pictures.frame, exposure);
+  if (!is_animation(job.settings)) {
     bench.measurer.count_work(record, staged, target.view);
     if (bench.gpu_costs) record.gpu_costs = bench.gpu_costs->costs(staged, target.view, no_progress).gpus;
-    record.images.color = write_exposable_picture(job.folder, stem, pictures.frame, exposure);
   }
   return std::move(pictures.frame);
 }

@@ -18,6 +18,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/image/pixel_script.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
@@ -116,9 +117,9 @@ struct NdfPicture {
   std::vector<float> densities;
 };
 
-// Writes images/STEM.exr and .png for the exact NDF and every method, images/STEM_difference.png for every method, and
-// ndf.png, all of them side by side over the scale, below `folder`; fills in the paths and the scale of `results`,
-// whose records are those of `methods`. The scale runs from 0 to the exact NDF's largest density.
+// Writes images/STEM.exr, STEM.png and STEM_values.js for the exact NDF and every method, images/STEM_difference.png
+// for every method, and ndf.png, all of them side by side over the scale, below `folder`; fills in the paths and the
+// scale of `results`, whose records are those of `methods`. The scale runs from 0 to the exact NDF's largest density.
 void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& exact,
                         std::span<const NdfPicture> methods, NdfResults& results) {
   const float scale = *std::ranges::max_element(exact.densities);
@@ -127,7 +128,9 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     images.density = "images/" + picture.stem + ".exr";
     images.picture = "images/" + picture.stem + ".png";
     Image shown = colored(size, picture.densities, scale);
-    write_exr(folder / images.density, one_channel(size, picture.densities));
+    const Image densities = one_channel(size, picture.densities);
+    write_exr(folder / images.density, densities);
+    write_pixel_script(folder / "images" / (picture.stem + "_values.js"), densities);
     write_png(folder / images.picture, shown);
     return shown;
   };

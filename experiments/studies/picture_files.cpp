@@ -11,17 +11,18 @@
 #include <vector>
 
 #include "experiments/studies/distance_result.hpp"
+#include "experiments/studies/score.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
+#include "renderer/image/flip.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/image/pixel_script.hpp"
 #include "renderer/pipeline/supersample.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint {
 namespace {
-
-constexpr float dark_gain = 1.0F / 16.0F;  // four stops: results/report/page.js
 
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
@@ -39,6 +40,14 @@ Image counted_reference(const std::filesystem::path& folder, const DistanceResul
   }
   uncover(reference, mask);
   return reference;
+}
+
+// For FLIP, which takes every pixel, those too that no figure includes because they are not finite.
+Image seen(const Image& radiance, float exposure) {
+  Image image = shown(radiance, exposure);
+  std::ranges::replace_if(
+      image.texels, [](float value) { return !std::isfinite(value); }, 0.0F);
+  return image;
 }
 
 std::string error_file(const std::filesystem::path& folder, const Record& record, const std::string& end,
@@ -79,15 +88,15 @@ std::string write_picture(const std::filesystem::path& folder, const std::string
   return "images/" + stem + ".exr";
 }
 
-std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
-                                    float exposure) {
-  write_png(folder / "images" / (stem + "_dark.png"), to_display(radiance, exposure * dark_gain));
+std::string write_page_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
+                               float exposure, const Image& left_out) {
+  write_pixel_script(folder / "images" / (stem + "_values.js"), radiance, left_out);
   return write_picture(folder, stem, radiance, exposure);
 }
 
-std::vector<std::string> exposable_files(const std::string& exr) {
+std::vector<std::string> page_picture_files(const std::string& exr) {
   const std::string stem = exr.substr(0, exr.size() - std::string_view(".exr").size());
-  return {exr, stem + ".png", stem + "_dark.png"};
+  return {exr, stem + ".png", stem + "_values.js"};
 }
 
 std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask) {
@@ -130,6 +139,7 @@ double error_scale(double largest, const std::optional<double>& given) {
 
 void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top) {
   const Image reference = counted_reference(folder, result);
+  const Image seen_reference = seen(read_back(folder, result.reference), result.exposure.factor);
   std::vector<StripPanel> panels{{.caption = fmt::format("reference, {:.0f} spp", result.samples),
                                   .picture = read_back(folder, result.reference),
                                   .error = {}}};
@@ -139,6 +149,8 @@ void write_error_images(const std::filesystem::path& folder, DistanceResult& res
     Image error = error_map(picture, reference, result.exposure.factor);
     record.images.error = error_file(folder, record, "_error", error, top);
     record.images.error_shared = record.images.error;
+    const Image flip = ldr_flip(seen(picture, result.exposure.factor), seen_reference);
+    record.images.flip = error_file(folder, record, "_flip", flip, 1.0);
     panels.push_back({.caption = record.method, .picture = std::move(picture), .error = std::move(error)});
   }
   write_strips(folder, distance_stem(result.distance, "all"), panels, result.exposure.factor, static_cast<float>(top));

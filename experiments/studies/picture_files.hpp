@@ -30,12 +30,13 @@ struct DistanceResult;
 std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
                           float exposure);
 
-/// The same, and STEM_dark.png four stops darker, from which the page shows highlights that the other one clips.
-std::string write_exposable_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
-                                    float exposure);
+/// The same, and STEM_values.js beside them, from which the page reads its values.
+/// left_out: a mask of the pixels that no figure includes; empty: there are none.
+std::string write_page_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
+                               float exposure, const Image& left_out = {});
 
-/// The files that write_exposable_picture makes of "images/STEM.exr".
-[[nodiscard]] std::vector<std::string> exposable_files(const std::string& exr);
+/// The files that write_page_picture makes of "images/STEM.exr".
+[[nodiscard]] std::vector<std::string> page_picture_files(const std::string& exr);
 
 /// Writes a mask, one channel of 1 and 0, as FOLDER/images/STEM.exr and STEM.png beside it; returns "images/STEM.exr".
 std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask);
@@ -59,8 +60,9 @@ void write_strips(const std::filesystem::path& folder, const std::string& stem, 
 /// given: the scale that was requested, which is then returned.
 [[nodiscard]] double error_scale(double largest, const std::optional<double>& given);
 
-/// Writes the strips of a distance and its error images on the scale `top`, and names them in the records; the images
-/// on the shared scale are the same until write_shared_error_images. folder: output folder with the images of `result`.
+/// Writes the strips of a distance, its maps of FLIP and its error images on the scale `top`, and names them in the
+/// records; the images on the shared scale are the same until write_shared_error_images. folder: output folder with the
+/// images of `result`.
 void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
 
 /// Writes the error images of a distance on the scale `top` that all distances share, and names them in the records.

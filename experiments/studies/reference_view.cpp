@@ -233,11 +233,8 @@ double ReferenceRenderer::noise_that_separates(const Supersampled& reference, co
 void ReferenceRenderer::write_files(ReferenceView& target) const {
   const auto stem_of = [&](const char* what) { return view_stem(settings_, target.index, target.at, what); };
   const std::string stem = stem_of("reference");
-  if (is_animation(settings_)) {
-    target.files.reference = write_picture(folder_, stem, target.whole, exposure_);
-    return;
-  }
-  target.files.reference = write_exposable_picture(folder_, stem, target.whole, exposure_);
+  target.files.reference = write_page_picture(folder_, stem, target.whole, exposure_, target.unresolved);
+  if (is_animation(settings_)) return;
   target.files.interior = write_mask(folder_, stem_of("interior"), target.parts.interior);
   target.files.standard_error = fmt::format("images/{}_standard_error.exr", stem);
   write_exr(folder_ / target.files.standard_error, target.reference.standard_error);

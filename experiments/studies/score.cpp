@@ -29,16 +29,6 @@ Image with_coverage(Image image, const std::string& file) {
   return out;
 }
 
-// Radiance times exposure; black where nothing is covered.
-Image shown(const Image& radiance, float exposure) {
-  Image out(radiance.width, radiance.height, 3);
-  for (std::size_t i = 0; i < out.texel_count(); ++i) {
-    if (radiance.texels[4 * i + 3] <= 0.0F) continue;
-    for (std::size_t c = 0; c < 3; ++c) out.texels[3 * i + c] = exposure * radiance.texels[4 * i + c];
-  }
-  return out;
-}
-
 // The object pixels in one row: a background would dominate a median.
 Image object_row(const Image& radiance, const Image& object) {
   Image row(0, 1, 4);
@@ -137,6 +127,15 @@ Color color_of(float verdict, bool on_object) {
 }  // namespace
 
 std::span<const ScoreMetric> score_metrics() { return metrics; }
+
+Image shown(const Image& radiance, float exposure) {
+  Image out(radiance.width, radiance.height, 3);
+  for (std::size_t i = 0; i < out.texel_count(); ++i) {
+    if (radiance.texels[4 * i + 3] <= 0.0F) continue;
+    for (std::size_t c = 0; c < 3; ++c) out.texels[3 * i + c] = exposure * radiance.texels[4 * i + c];
+  }
+  return out;
+}
 
 ScoredPicture read_scored(const std::string& file, float exposure) {
   ScoredPicture out{file, with_coverage(read_image(file, Transfer::srgb), file), !stores_radiance(file)};

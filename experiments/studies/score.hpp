@@ -38,6 +38,9 @@ struct ScoredPicture {
 /// and returns their number. `standard_error`: RGB. Errors (usage): sizes differ.
 std::size_t leave_out_unresolved(Image& reference, const Image& standard_error, float exposure);
 
+/// Radiance times exposure in RGB; black where nothing is covered. radiance: RGBA.
+[[nodiscard]] Image shown(const Image& radiance, float exposure);
+
 struct PictureScore {
   std::string name;
   bool displayed = false;

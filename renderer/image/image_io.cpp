@@ -19,6 +19,7 @@
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/image/encode.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
@@ -161,20 +162,6 @@ std::uint64_t texels_of_header(IOProxy& source) {
   }
 }
 
-// Encoded in memory, so that there is one way of writing files and of finding a full disk.
-std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
-                                  const OIIO::TypeDesc& type, const void* texels) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput target(bytes);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &target);
-  if (output && output->open(name, spec) && output->write_image(type, texels) && output->close()) return bytes;
-  const std::string queued = OIIO::geterror();
-  const std::string reason = first_line(output ? output->geterror() : queued);
-  // OpenImageIO reports nothing if it is out of memory.
-  throw Error(ErrorKind::machine, name,
-              fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
-}
-
 OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& image, const OIIO::TypeDesc& type) {
   const bool taken = image.channels == 1 || image.channels == 3 || image.channels == 4;
   if (image.empty() || !taken) {
@@ -267,6 +254,19 @@ void require_readable(const OIIO::ImageSpec& spec, const std::string& name, int 
 
 }  // namespace
 
+std::vector<unsigned char> encoded_image(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
+                                         const OIIO::TypeDesc& type, const void* texels) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput target(bytes);
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &target);
+  if (output && output->open(name, spec) && output->write_image(type, texels) && output->close()) return bytes;
+  const std::string queued = OIIO::geterror();
+  const std::string reason = first_line(output ? output->geterror() : queued);
+  // OpenImageIO reports nothing if it is out of memory.
+  throw Error(ErrorKind::machine, name,
+              fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
+}
+
 Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side) {
   const std::string name = file.string();
   std::error_code ignored;  // opening the file will fail
@@ -316,7 +316,8 @@ void write_exr(const std::filesystem::path& file, const Image& image) {
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("DateTime", "");  // else OpenImageIO stamps the hour, and equal images are different files
-  write_file_atomically(file, encode(file.string(), "openexr", spec, OIIO::TypeDesc::FLOAT, image.texels.data()));
+  write_file_atomically(file,
+                        encoded_image(file.string(), "openexr", spec, OIIO::TypeDesc::FLOAT, image.texels.data()));
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {
@@ -326,7 +327,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   std::vector<std::uint8_t> bytes(image.texels.size());
   std::ranges::transform(image.texels, bytes.begin(),
                          [](float value) { return static_cast<std::uint8_t>(std::lround(clamped(value) * 255.0F)); });
-  write_file_atomically(file, encode(file.string(), "png", spec, OIIO::TypeDesc::UINT8, bytes.data()));
+  write_file_atomically(file, encoded_image(file.string(), "png", spec, OIIO::TypeDesc::UINT8, bytes.data()));
 }
 
 Image to_display(const Image& radiance, float exposure) {

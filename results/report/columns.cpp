@@ -51,7 +51,7 @@ constexpr std::string_view error_unit = "normalised colour error, 0 to 1";
 constexpr std::string_view cause_unit = "normalised colour by cause, 0 to 2";
 constexpr std::string_view part_unit = "normalised colour error over some of the pixels, 0 to 1";
 
-constexpr std::array<Column, 74> all_columns{
+constexpr std::array<Column, 75> all_columns{
     {{"scene", "/scene", "text"},
      {"method", "/method", "text"},
      {"options", "/options", "text, `name=value;name=value`"},
@@ -153,6 +153,7 @@ constexpr std::array<Column, 74> all_columns{
      {"image_reference", "/images/reference", "paths from the output folder"},
      {"image_error", "/images/error", "paths from the output folder"},
      {"image_error_shared", "/images/error_shared", "paths from the output folder"},
+     {"image_flip", "/images/flip", "paths from the output folder"},
      {"image_interior", "/images/interior", "paths from the output folder"},
      {"image_standard_error", "/images/standard_error", "paths from the output folder"},
      {"failure", "/failure", "text; empty if the method did not fail"},

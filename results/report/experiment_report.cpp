@@ -145,7 +145,7 @@ std::string experiment_html(const ExperimentReport& report) {
   std::string html = fmt::format(
       "<section aria-labelledby=\"experiment-title\" id=\"experiment\">\n<h2 "
       "id=\"experiment-title\">{}</h2>\n<p>{}</p>\n"
-      "<p class=\"{}\">{}</p>\n",
+      "<p class=\"outcome {}\">{}</p>\n",
       html_escaped(report.title), html_escaped(report.description), report.shortfalls().empty() ? "note" : "warning",
       html_escaped(summary(report)));
   for (const std::string& picture : report.pictures) {

@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "renderer/core/embedded_texts.hpp"
-
 namespace footprint {
 namespace {
 
@@ -159,20 +157,6 @@ std::string script_escaped(std::string_view json) {
     }
   }
   return escaped;
-}
-
-extern const EmbeddedTexts page_texts;
-
-std::string_view page_text(std::string_view file) { return find_text(page_texts, file)->text; }
-
-std::string fill_page(const PageShell& shell, std::map<std::string, std::string_view> values) {
-  const std::string title = html_escaped(shell.title);
-  const std::string head =
-      fill_template(page_text("head.html"), {{"title", title},
-                                             {"css", page_text("page.css")},
-                                             {"script-policy", shell.scripts ? "; script-src 'unsafe-inline'" : ""}});
-  values["head"] = head;
-  return fill_template(page_text(shell.file), values);
 }
 
 }  // namespace footprint

@@ -18,8 +18,8 @@ namespace {
 // With paths from the matrix' folder.
 Record seen_from_above(Record record, const std::string& folder) {
   RecordImages& images = record.images;
-  for (std::string* path : {&images.color, &images.reference, &images.error, &images.error_shared, &images.interior,
-                            &images.standard_error}) {
+  for (std::string* path : {&images.color, &images.reference, &images.error, &images.error_shared, &images.flip,
+                            &images.interior, &images.standard_error}) {
     if (!path->empty()) path->insert(0, folder + "/");
   }
   return record;

@@ -68,6 +68,9 @@ inline constexpr double ndf_energy_tolerance = 0.005;
 
 [[nodiscard]] std::string ndf_json(const NdfResults& results);
 
+/// The page: the densities in the comparator, their differences, and the table.
+[[nodiscard]] std::string ndf_page(const NdfResults& results);
+
 /// One row per method, and the exact NDF's.
 [[nodiscard]] std::string ndf_table(const NdfResults& results);
 

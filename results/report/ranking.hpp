@@ -73,6 +73,16 @@ using DistanceRecords = std::vector<std::reference_wrapper<const Record>>;
 [[nodiscard]] std::optional<double> closer_share(const Results& results, double distance, const std::string& method,
                                                  const std::string& other);
 
+/// The answer at one distance.
+struct DistanceAnswer {
+  std::vector<std::string> sentences;  ///< the most accurate; then the cheapest that improves on `direct`, if another
+  std::vector<std::string> methods;    ///< to show: `direct`, that cheapest one, the most accurate; what there is
+};
+[[nodiscard]] DistanceAnswer answer_at(const Results& results, double distance);
+
+/// "-59%": the record's error over that of `direct` at its distance; empty for `direct`, and if either is not known.
+[[nodiscard]] std::string change_from_direct(const Results& results, const Record& record);
+
 /// The findings at one distance, in sentences: which methods are best and which do not differ, what the best
 /// one costs and what it is worth, in how many pixels it is closer than the next, what the bound leaves, and what edges
 /// add.

@@ -83,6 +83,7 @@ void fields(auto& archive, Is<RecordImages> auto& value) {
   archive("reference", value.reference);
   archive("error", value.error);
   archive("error_shared", value.error_shared);
+  archive("flip", value.flip);
   archive("interior", value.interior);
   archive("standard_error", value.standard_error);
 }

@@ -122,10 +122,11 @@ struct OtherReference {
 
 /// Pictures of one record, as paths relative to the output folder.
 struct RecordImages {
-  std::string color;           ///< EXR, with a .png of the same stem
-  std::string reference;       ///< EXR, with a .png
+  std::string color;           ///< EXR, with STEM.png and STEM_values.js (renderer/image/pixel_script.hpp)
+  std::string reference;       ///< EXR, with the same two
   std::string error;           ///< PNG, false colour on the scale of its distance
   std::string error_shared;    ///< the same on the scale that all distances share
+  std::string flip;            ///< PNG, LDR-FLIP in false colour from 0 to 1
   std::string interior;        ///< EXR, white where a pixel is interior, with a .png
   std::string standard_error;  ///< EXR, the reference's own in each pixel and channel
 };

@@ -1,4 +1,4 @@
-// Results as one page that opens from disk: page.html with its style, its script, Chart.js and the data filled in.
+// The results of runs as data of the page: their documents, and figures and findings as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,13 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/image/false_color.hpp"
 #include "results/report/columns.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/gpu_cost_report.hpp"
-#include "results/report/markup.hpp"
 #include "results/report/matrix_report.hpp"
+#include "results/report/page.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
@@ -22,21 +21,6 @@ namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The false-colour scale as colours at even steps, for the legend: "rgb(0,0,4)", ...
-Json scale_colors() {
-  constexpr int steps = 33;
-  Image ramp(steps, 1, 1);
-  for (int x = 0; x < steps; ++x) ramp.at(x, 0)[0] = static_cast<float>(x) / (steps - 1);
-  const Image colors = false_color(ramp, 1.0F);
-  Json list = Json::array();
-  for (int x = 0; x < steps; ++x) {
-    const std::span<const float> rgb = colors.at(x, 0);
-    const auto byte = [&rgb](std::size_t channel) { return std::lround(rgb[channel] * 255.0F); };
-    list.push_back(fmt::format("rgb({},{},{})", byte(0), byte(1), byte(2)));
-  }
-  return list;
-}
 
 /// Whether the record's frames are shorter than all others of its distance, for any spread.
 bool is_fastest(const Record& record, const DistanceRecords& records) {
@@ -78,9 +62,11 @@ Json columns_json() {
 
 /// A record's figures as the page prints them, the same as in the table.
 /// json: the record as results.json has it.
-Json display(const Record& record, const Json& json, const DistanceRecords& records) {
+Json display(const Results& results, const Record& record, const Json& json) {
+  const DistanceRecords records = records_at(results, record.distance);
   const std::optional<int> place = rank(record, records);
   Json cells{{"rank", place ? fmt::format("{}", *place) : "–"},
+             {"change", change_from_direct(results, record)},
              {"at_floor", shading_at_noise_floor(record)},
              {"is_best", is_best(record, records)},
              {"is_fastest", is_fastest(record, records)}};
@@ -91,11 +77,14 @@ Json display(const Record& record, const Json& json, const DistanceRecords& reco
   return cells;
 }
 
-/// The findings at a distance, and the scale of its error images.
+/// The answer and the findings at a distance, and the scale of its error images.
 Json distance_json(const Results& results, double distance) {
   const auto scale = std::ranges::find(results.error_scales, distance, &ErrorScale::distance);
   const double top = scale == results.error_scales.end() ? results.error_scale : scale->error;
+  const DistanceAnswer answer = answer_at(results, distance);
   return {{"distance", distance},
+          {"answer", answer.sentences},
+          {"shown", answer.methods},
           {"pixels", pixels_and_noise(records_at(results, distance).front())},
           {"findings", findings(results, distance)},
           {"scale_top", error_text(top)}};
@@ -110,7 +99,7 @@ Json run_json(const Results& results, const std::string& folder) {
   if (!results.way) {
     for (std::size_t i = 0; i < results.records.size(); ++i) {
       const Record& record = results.records[i];
-      records.push_back(display(record, document.at("records").at(i), records_at(results, record.distance)));
+      records.push_back(display(results, record, document.at("records").at(i)));
     }
     for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
   }
@@ -124,24 +113,10 @@ Json run_json(const Results& results, const std::string& folder) {
           {"scale_top", error_text(results.error_scale)}};
 }
 
-struct PageTexts {
-  std::string title, table, experiment, gpus = {};
-  bool film = false;  // the results are of an animation
-};
-
-std::string page_of(Json runs, const PageTexts& own) {
-  const Json data{{"runs", std::move(runs)}, {"columns", columns_json()}, {"scale_colors", scale_colors()}};
-  const std::string filled = script_escaped(json_text(data, -1));
-  const std::string title = html_escaped(own.title), table = html_escaped(own.table);
-  return fill_page({.file = "page.html", .title = own.title}, {{"title", title},
-                                                               {"chart", page_text("chart.min.js")},
-                                                               {"script", page_text("page.js")},
-                                                               {"film", own.film ? page_text("film.html") : ""},
-                                                               {"film-script", own.film ? page_text("film.js") : ""},
-                                                               {"table", table},
-                                                               {"experiment", own.experiment},
-                                                               {"gpus", own.gpus},
-                                                               {"data", filled}});
+// The page of runs: its scripts make views of their records.
+std::string page_of(Page page, Json runs) {
+  page.eyebrow = "error, cost and memory of normal map filtering";
+  return page_html(page, Json{{"runs", std::move(runs)}, {"columns", columns_json()}});
 }
 
 }  // namespace
@@ -149,19 +124,20 @@ std::string page_of(Json runs, const PageTexts& own) {
 std::string results_page(const Results& results) {
   Json runs = Json::array();
   runs.push_back(run_json(results, ""));
-  return page_of(std::move(runs), {.title = results.scene.name,
-                                   .table = results_table(results),
-                                   .experiment = results.experiment ? experiment_html(*results.experiment) : "",
-                                   .gpus = gpu_costs_html(results),
-                                   .film = results.way.has_value()});
+  return page_of({.title = results.scene.name,
+                  .text = results_table(results),
+                  .exposure = results.scene.exposure,
+                  .experiment = results.experiment ? experiment_html(*results.experiment) : "",
+                  .gpus = gpu_costs_html(results)},
+                 std::move(runs));
 }
 
 std::string matrix_page(const MatrixResults& matrix) {
   Json runs = Json::array();
   for (const auto& [folder, results] : matrix.members) runs.push_back(run_json(results, folder));
   return page_of(
-      std::move(runs),
-      {.title = matrix.report.title, .table = matrix_table(matrix), .experiment = experiment_html(matrix.report)});
+      {.title = matrix.report.title, .text = matrix_table(matrix), .experiment = experiment_html(matrix.report)},
+      std::move(runs));
 }
 
 }  // namespace footprint

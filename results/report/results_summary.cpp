@@ -66,27 +66,17 @@ std::string most_accurate(const DistanceRecords& best, const std::optional<doubl
                             best.size() == 1 ? "" : fmt::format(" with {}", cheapest.method));
 }
 
-// The cheapest one that is better than `direct` beyond noise; empty where that is among `best`, or unknown.
-std::string cheapest_gain(const DistanceRecords& records, const DistanceRecords& best) {
+// The cheapest one that is better than `direct` beyond noise; null where that is among `best`, or unknown.
+const Record* cheapest_gain(const DistanceRecords& records, const DistanceRecords& best) {
   const auto direct = std::ranges::find_if(records, is_unit_frame);
-  if (direct == records.end()) return {};
+  if (direct == records.end()) return nullptr;
   const Record* cheapest = nullptr;
   for (const Record& record : records) {
     if (is_better(record, *direct) && (!cheapest || record.frame_ms.median < cheapest->frame_ms.median))
       cheapest = &record;
   }
-  if (!cheapest || std::ranges::any_of(best, [&](const Record& r) { return &r == cheapest; })) return {};
-  return fmt::format("\n    {} is the cheapest that improves on direct: error {}, at {}.", cheapest->method,
-                     error_text(*ranked_error(*cheapest)), cost_phrase(*cheapest));
-}
-
-std::string answer(const Results& results, double distance) {
-  const DistanceRecords records = sorted_records(results, distance);
-  if (!ranked_error(records.front())) return "no method is ranked.";
-  DistanceRecords best;
-  std::ranges::copy_if(records, std::back_inserter(best),
-                       [&](const Record& r) { return ranked_error(r) && !is_better(records.front(), r); });
-  return most_accurate(best, error_of_direct(results, distance)) + cheapest_gain(records, best);
+  const bool is_best = std::ranges::any_of(best, [&](const Record& r) { return &r == cheapest; });
+  return is_best ? nullptr : cheapest;
 }
 
 // Hundredths are the least that a bake's time is good for.
@@ -97,13 +87,12 @@ std::string seconds_text(double seconds) {
 
 Row row_of(const Results& results, const Record& record) {
   const std::optional<double> error = ranked_error(record);
-  const bool is_direct = is_unit_frame(record);
   return {fmt::format("{:g}", record.distance),
           record.method,
           record.failure ? "failed"
           : error        ? error_text(*error) + (shading_at_noise_floor(record) ? " *" : "  ")
                          : "n/a",
-          is_direct ? std::string() : change_text(error, error_of_direct(results, record.distance)),
+          change_from_direct(results, record),
           record.failure ? std::string() : equivalent_text(record),
           record.failure ? std::string() : ratio_text(record.ratio_to_direct),
           record.failure ? std::string() : readable_bytes(record.precompute_bytes),
@@ -166,11 +155,36 @@ std::string notes(const Results& results) {
 
 }  // namespace
 
+DistanceAnswer answer_at(const Results& results, double distance) {
+  const DistanceRecords records = sorted_records(results, distance);
+  if (!ranked_error(records.front())) return {.sentences = {"no method is ranked."}, .methods = {}};
+  DistanceRecords best;
+  std::ranges::copy_if(records, std::back_inserter(best),
+                       [&](const Record& r) { return ranked_error(r) && !is_better(records.front(), r); });
+  DistanceAnswer answer{.sentences = {most_accurate(best, error_of_direct(results, distance))}, .methods = {}};
+  const Record* const cheapest = cheapest_gain(records, best);
+  if (cheapest) {
+    answer.sentences.push_back(fmt::format("{} is the cheapest that improves on direct: error {}, at {}.",
+                                           cheapest->method, error_text(*ranked_error(*cheapest)),
+                                           cost_phrase(*cheapest)));
+  }
+  const auto direct = std::ranges::find_if(records, is_unit_frame);
+  if (direct != records.end() && &direct->get() != &best.front().get()) answer.methods.emplace_back("direct");
+  if (cheapest) answer.methods.push_back(cheapest->method);
+  answer.methods.push_back(best.front().get().method);
+  return answer;
+}
+
+std::string change_from_direct(const Results& results, const Record& record) {
+  if (is_unit_frame(record)) return {};
+  return change_text(ranked_error(record), error_of_direct(results, record.distance));
+}
+
 std::string results_summary(const Results& results) {
   if (results.records.empty()) return {};
   std::string text = head(results) + "\n";
   for (const double distance : distances_of(results))
-    text += fmt::format("  Distance {:g}: {}\n", distance, answer(results, distance));
+    text += fmt::format("  Distance {:g}: {}\n", distance, fmt::join(answer_at(results, distance).sentences, "\n    "));
   text += "\n" + table(results) + "\n" + legend(results) + notes(results);
   if (results.experiment) text += experiment_markdown(*results.experiment);
   return text;

@@ -66,7 +66,8 @@ std::vector<Case> good_scores() {
            {"The first is closer to the reference in 0.0% of the pixels, the second in 100.0%", "noise unknown",
             "score.json"},
            {"score/score.json", "score/ldr_flip_1.png", "score/hdr_flip_1.png", "score/ldr_flip_2.png",
-            "score/hdr_flip_2.png", "score/closer.png"}),
+            "score/hdr_flip_2.png", "score/closer.png", "score/index.html", "score/reference.png",
+            "score/reference_values.js", "score/image_1.png", "score/image_2_values.js"}),
       good("ScoreBeyondNoise",
            {"{}/darkest.hdr", "{}/darker.hdr", "--reference", "{}/reference.hdr", "--standard-error",
             "{}/reference.hdr", "--exposure", "1"},
@@ -110,8 +111,9 @@ std::vector<Case> limited_scores() {
              {"one.hdr", "two.hdr", "failed: limit normalized_color=0.1: it is 0.125"}),
       good("ScoreOfFoldersIntoAFolder", {"{}/nightly", "--reference", "{}/golden", "--max", "p100=1", "-o", "{}/s"},
            {"score: "},
-           {"s/near/one.hdr/score.json", "s/near/one.hdr/ldr_flip_1.png", "s/near/one.hdr/hdr_flip_1.png",
-            "s/two.hdr/score.json", "s/two.hdr/ldr_flip_1.png", "s/two.hdr/hdr_flip_1.png"}),
+           {"s/near/one.hdr/index.html", "s/near/one.hdr/score.json", "s/near/one.hdr/ldr_flip_1.png",
+            "s/near/one.hdr/hdr_flip_1.png", "s/two.hdr/score.json", "s/two.hdr/ldr_flip_1.png",
+            "s/two.hdr/hdr_flip_1.png"}),
   };
 }
 

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 import subprocess
 import sys
 import unittest
@@ -62,6 +63,17 @@ class NdfTest(WholeRunTest):
             for key in set(group) - {"density"}:
                 self.assertIn("64 x   64, 3 channel, uint8 png", channels_and_size(self.ndf_folder / group[key]))
         self.assertIn("3 channel, uint8 png", channels_and_size(self.ndf_folder / self.document["pictures"]["strip"]))
+
+    def test_the_page_compares_every_density(self):
+        page = (self.ndf_folder / "index.html").read_text(encoding="utf-8")
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
+        (view,) = data["views"]
+        self.assertEqual([image["name"] for image in view["images"]], ["truth", *METHODS])
+        for image in view["images"]:
+            for file in filter(None, (image["png"], image["values"], image["error"])):
+                self.assertTrue((self.ndf_folder / file).is_file(), file)
+        least = min(METHODS, key=lambda name: self.document["methods"][name]["l2"])
+        self.assertTrue(data["answer"][0].startswith(f"{least} is closest"), data["answer"])
 
     def test_runs_are_the_same_to_the_last_byte(self):
         again = self.folder / "again"

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 import subprocess
 import sys
 import unittest
@@ -65,8 +66,14 @@ class RecommendTest(WholeRunTest):
             self.assertIn(words, output)
         command = document_of(folder)["materials"][0]["command"]
         self.assertIn(f"Bake it: {command}\n", output)
-        self.assertIn(f">{command}</pre>", page)
-        self.assertIn("<svg", page)
+        data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
+        (section,) = data["sections"]
+        self.assertEqual(section["sentences"], document_of(folder)["materials"][0]["words"])
+        self.assertEqual(section["command"], command)
+        self.assertEqual([point["name"] for point in section["plot"]["points"]], [" · ".join(row[:2]) for row in section["table"]["rows"]])
+        for image in data["views"][0]["images"]:
+            for file in filter(None, (image["png"], image["values"], image["error"])):
+                self.assertTrue((folder / file).is_file(), file)
         self.assertNotIn("{{", page)
         for report in document_of(folder)["reports"]:
             self.assertTrue((folder / report).is_file(), report)

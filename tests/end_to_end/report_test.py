@@ -72,6 +72,8 @@ class Report(WholeRunTest):
         self.assertGreaterEqual(len(pictures), 2 * (1 + 2 * len(METHODS)))
         for path in [*loaded, *pictures]:
             self.assertTrue((self.out / path).is_file(), path)
+        for image in {record["images"][kind] for record in self.records.values() for kind in ("color", "reference")}:
+            self.assertTrue((self.out / image.replace(".exr", "_values.js")).is_file(), image)
 
     def test_every_picture_of_a_record_is_there(self):
         for record in self.records.values():

@@ -77,6 +77,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
                    fmt::format("images/reference_d{}.exr", distance),
                    stem + "_error.png",
                    stem + "_error_shared.png",
+                   stem + "_flip.png",
                    fmt::format("images/interior_d{}.exr", distance),
                    fmt::format("images/reference_d{}_standard_error.exr", distance)};
   return record;

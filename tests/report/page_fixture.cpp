@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <string_view>
 
+#include "renderer/core/files.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
+#include "renderer/image/pixel_script.hpp"
+#include "results/report/page.hpp"
 #include "results/report/report.hpp"
 #include "tests/report/example_animation.hpp"
 #include "tests/report/example_results.hpp"
@@ -43,11 +47,13 @@ std::filesystem::path png_of(const std::filesystem::path& folder, const std::str
   return (folder / image).replace_extension(".png");
 }
 
-constexpr float dark_gain = 1.0F / 16.0F;  // four stops, as in the page's script
-
-std::filesystem::path dark_png_of(const std::filesystem::path& folder, const std::string& image) {
-  const std::filesystem::path file = folder / image;
-  return file.parent_path() / (file.stem().string() + "_dark.png");
+// As write_page_picture of the studies.
+void write_picture(const std::filesystem::path& folder, const std::string& exr, const Image& radiance,
+                   double exposure) {
+  const std::filesystem::path file = folder / exr;
+  write_exr(file, radiance);
+  write_png(png_of(folder, exr), to_display(radiance, static_cast<float>(exposure)));
+  write_pixel_script(file.parent_path() / (file.stem().string() + "_values.js"), radiance);
 }
 
 void write_pictures(const Results& results, const std::filesystem::path& folder) {
@@ -55,17 +61,14 @@ void write_pictures(const Results& results, const std::filesystem::path& folder)
   for (const Record& record : results.records) {
     const Image reference = ball(record.width, 0.05);
     const Image picture = ball(record.width, 20 * (record.error ? record.error->normalized_color : 0));
-    write_png(png_of(folder, record.images.reference), to_display(reference, 1));
-    write_png(dark_png_of(folder, record.images.reference), to_display(reference, dark_gain));
+    write_picture(folder, record.images.reference, reference, results.scene.exposure);
     const bool left_out = record.images.color.find("absent") != std::string::npos;
-    if (!left_out) {
-      write_png(png_of(folder, record.images.color), to_display(picture, 1));
-      write_png(dark_png_of(folder, record.images.color), to_display(picture, dark_gain));
-    }
+    if (!left_out) write_picture(folder, record.images.color, picture, results.scene.exposure);
     const auto scale = std::ranges::find(results.error_scales, record.distance, &ErrorScale::distance);
     const Image errors = error_map(picture, reference, 1);
     write_png(folder / record.images.error, false_color(errors, static_cast<float>(scale->error)));
     write_png(folder / record.images.error_shared, false_color(errors, static_cast<float>(results.error_scale)));
+    write_png(folder / record.images.flip, false_color(errors, 0.5F));
     write_png(png_of(folder, record.images.interior), to_display(ball(record.width, 1), 1));
   }
   for (const MethodPair& pair : results.pairs) {
@@ -96,9 +99,39 @@ void write_matrix(const std::filesystem::path& folder, std::size_t members) {
   write_matrix_report(matrix, folder);
 }
 
+// A page without runs, as of `recommend` and `score`: two views, and a section with everything.
+void write_views(const std::filesystem::path& folder) {
+  Page page{.title = "views", .eyebrow = "a test", .lede = "Two views.", .text = "as text", .answer = {"b is chosen."}};
+  for (const int view : {1, 2}) {
+    std::vector<PageImage> images;
+    for (const char* name : {"reference", "a", "b"}) {
+      const std::string stem = fmt::format("{}_{}", name, view);
+      write_picture(folder, stem + ".exr", ball(96, 0.3 * view * (*name - 'a' + 1)), 1);
+      images.push_back(
+          {.name = name, .png = stem + ".png", .values = stem + "_values.js", .caption = "caption of " + stem});
+    }
+    page.views.push_back({.label = fmt::format("view {}", view), .images = std::move(images)});
+  }
+  page.sections.push_back(
+      {.heading = "steel </script>",
+       .sentences = {"b is chosen.", "a is cheaper."},
+       .command = "footprint bake <steel>",
+       .plot = {.cost_title = "Relative cost",
+                .points = {{.name = "a", .cost = 1, .low = 0.9, .high = 1.1, .error = 0.1},
+                           {.name = "b", .cost = 2, .low = 1.9, .high = 2.2, .error = 0.05, .is_chosen = true},
+                           {.name = "worse", .cost = 3, .low = 2, .high = 4, .error = 0.2}},
+                .most_error = 0.08},
+       .table = {.heading = {}, .columns = {{"Method", false}, {"Error"}}, .rows = {{"a", "0.1"}, {"b", "0.05"}}},
+       .marked_row = 1,
+       .links = {"a b/index.html"}});
+  page.provenance = {{"Version", "none"}};
+  write_file_atomically(folder / "index.html", page_html(page, {}));
+}
+
 void write_fixture(const std::filesystem::path& folder, std::string_view kind) {
   if (kind == "film") return write_film(example_animation(), folder);
   if (kind == "hostile_film") return write_film(hostile_animation(), folder);
+  if (kind == "views") return write_views(folder);
   if (kind == "matrix") return write_matrix(folder, few_members);
   if (kind == "large") return write_matrix(folder, many_members);
   const Results results = kind == "hostile" ? hostile_results() : example_results();
@@ -113,7 +146,7 @@ int main(int argc, char** argv) {
   try {
     if (argc != 3)
       throw std::invalid_argument(
-          "usage: footprint_page_fixture FOLDER example|hostile|film|hostile_film|matrix|large");
+          "usage: footprint_page_fixture FOLDER example|hostile|film|hostile_film|views|matrix|large");
     footprint::write_fixture(argv[1], argv[2]);
     return 0;
   } catch (const std::exception& fault) {

@@ -60,7 +60,15 @@ function loadedScript(place) {
   });
 }
 
-const keptValues = 48;  // images
+const keptPixels = 2 ** 25;  // of values, and of canvases: some hundred megabytes
+const keptFiles = 200;
+
+/** Forgets the oldest entries, but none that one view needs at once. */
+function trim(map, pixels) {
+  const most = Math.max(closest.images.length + 2, Math.floor(keptPixels / pixels));
+  while (map.size > most) map.delete(map.keys().next().value);
+}
+
 const loads = new Map();  // place: {values}, null until they are there, or {missing}
 
 /** The image's values once they are there, else null; `draw` is called then. A file that is missing stays null. */
@@ -70,9 +78,11 @@ function valuesOf(image) {
   if (!load) {
     load = {values: null};
     Promise.resolve(data.pictures ? data.pictures[image.values] : loadedScript(image.values)).then(decoded)
-      .then((values) => { load.values = values; }, () => { load.missing = true; }).then(draw);
+      .then((values) => {
+        load.values = values;
+        trim(loads, values.width * values.height);
+      }, () => { load.missing = true; }).then(draw);
     loads.set(image.values, load);
-    if (loads.size > keptValues) loads.delete(loads.keys().next().value);
   }
   return load.values;
 }
@@ -86,7 +96,7 @@ function pngOf(place) {
     image.onerror = () => { image.missing = true; draw(); };
     image.src = data.pictures?.[place] ?? urlOf(place);
     pngs.set(place, image);
-    if (pngs.size > 4 * keptValues) pngs.delete(pngs.keys().next().value);
+    if (pngs.size > keptFiles) pngs.delete(pngs.keys().next().value);
   }
   return pngs.get(place);
 }
@@ -142,7 +152,7 @@ function colorsOf(image) {
   if (!own) return null;
   if (state.map === 'image') {
     const factor = gain();
-    return (i) => [0, 1, 2].map((c) => byteOf(factor * own.rgb[3 * i + c]));
+    return (i) => [byteOf(factor * own.rgb[3 * i]), byteOf(factor * own.rgb[3 * i + 1]), byteOf(factor * own.rgb[3 * i + 2])];
   }
   const reference = valuesOf(closest.images[0]);
   if (!reference) return null;
@@ -188,12 +198,13 @@ function sourceOf(image) {
     const canvas = Object.assign(document.createElement('canvas'), {width, height});
     const pixels = new ImageData(width, height);
     for (let i = 0; i < width * height; ++i) {
-      pixels.data.set(colors(i), 4 * i);
+      const color = colors(i);
+      for (let c = 0; c < 3; ++c) pixels.data[4 * i + c] = color[c];
       pixels.data[4 * i + 3] = 255;
     }
     canvas.getContext('2d').putImageData(pixels, 0, 0);
     drawn.set(id, {canvas, shares: closest.shares});
-    if (drawn.size > keptValues) drawn.delete(drawn.keys().next().value);
+    trim(drawn, width * height);
   }
   const found = drawn.get(id);
   if (state.map === 'winner') closest.shares = found.shares;
@@ -596,6 +607,22 @@ function flipImages() {
   return showComparator();
 }
 
+const worstSide = 32;  // pixels of the region that is looked for
+
+/** Zooms to the region in which B differs most from the reference. */
+function showWorst() {
+  const [reference, own] = [closest.images[0], chosen('b')].map(valuesOf), exposure = exposureOfView();
+  if (!reference || !own) return;
+  const columns = Math.ceil(own.width / worstSide), sums = new Float64Array(columns * Math.ceil(own.height / worstSide));
+  for (let i = 0; i < own.coverage.length; ++i) {
+    const at = Math.floor(i / own.width / worstSide) * columns + Math.floor((i % own.width) / worstSide);
+    if (counts(reference, i)) sums[at] += errorAt(own, reference, i, exposure);
+  }
+  const worst = sums.indexOf(Math.max(...sums)), pane = closest.panes[0].canvas;
+  const zoom = Math.max(1, Math.floor(Math.min(pane.clientWidth, pane.clientHeight) / (1.5 * worstSide)));
+  moveTo({zoom, center: [worst % columns, Math.floor(worst / columns)].map((at) => (at + 0.5) * worstSide)});
+}
+
 const setStops = (stops) => changeComparator({stops: Math.max(-8, Math.min(8, stops))});
 const availableMaps = () => (data.in_false_color ? ['image', 'error'] : maps.map(([name]) => name));
 
@@ -616,6 +643,7 @@ function press(event) {
   else if (letter === 'r') choose(event.shiftKey ? 'a' : 'b', closest.images[0].name);
   else if (event.key === ' ') flipImages();
   else if (mode) changeComparator({mode});
+  else if (letter === 'w') showWorst();
   else if (letter === 'e') changeComparator({map: state.map === 'error' ? 'image' : 'error'});
   else if (letter === 'm') {
     const names = availableMaps();

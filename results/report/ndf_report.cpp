@@ -2,6 +2,7 @@
 #include "results/report/ndf_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,18 @@ std::string conditions(const NdfResults& results) {
                      results.texels, results.level);
 }
 
+// Errors that rounding explains are equal.
+std::string closest_methods(const NdfResults& results) {
+  constexpr double rounding = 1e-5;
+  const double least = std::ranges::min(results.records, {}, &NdfRecord::l2).l2;
+  std::vector<std::string> names;
+  for (const NdfRecord& record : results.records) {
+    if (record.l2 <= std::max(least, rounding)) names.push_back(record.method);
+  }
+  return fmt::format("{} {} closest to the exact NDF: relative L2 error {}.", fmt::join(names, ", "),
+                     names.size() == 1 ? "is" : "are", least < rounding ? "below 1e-05" : figure(least));
+}
+
 PageImage image_of(const std::string& name, const NdfImages& images, double peak) {
   return {.name = name,
           .png = images.picture,
@@ -52,7 +65,6 @@ std::string ndf_page(const NdfResults& results) {
   PageView view{.label = "footprint", .images = {image_of("truth", results.exact.images, results.exact.peak)}};
   for (const NdfRecord& record : results.records)
     view.images.push_back(image_of(record.method, record.images, record.peak));
-  const auto best = std::ranges::min_element(results.records, {}, &NdfRecord::l2);
   Page page{.title = "NDF of " + results.source,
             .eyebrow = "normal distributions of one footprint",
             .lede = conditions(results) + ".",
@@ -67,9 +79,7 @@ std::string ndf_page(const NdfResults& results) {
                            {"Directions", std::to_string(results.directions)},
                            {"Scale", fmt::format("0 to {} per steradian", figure(results.scale))},
                            {"Version", "footprint " + results.version}}};
-  if (best != results.records.end())
-    page.answer.push_back(
-        fmt::format("{} is closest to the exact NDF: relative L2 error {}.", best->method, figure(best->l2)));
+  if (!results.records.empty()) page.answer = {closest_methods(results)};
   for (const std::string& note : results.notes) page.provenance.push_back({"Warning", note});
   return page_html(page, {});
 }

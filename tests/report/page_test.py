@@ -303,8 +303,9 @@ def check_slider(browser):
     browser.run("changeComparator({split: 50})")
 
 
-def check_zoom_and_pan(browser):
+def check_zoom_and_pan(browser, folder):
     """Side by side, both images follow one zoom and pan to the pixel: with one image on both sides they stay equal."""
+    reference = texels(folder / "images/reference_d1.exr")
     sides = lambda: [browser.drawing(f"#panes canvas:nth-child({i})") for i in (1, 2)]
     browser.press("d")
     browser.run("changeComparator({a: 'toksvig', b: 'toksvig'})")
@@ -341,6 +342,16 @@ def check_zoom_and_pan(browser):
     assert len({first for first, _ in blocks}) > 2, blocks
     browser.press("0")
     assert browser.run("return state.zoom") is None and sides() == fitted
+    browser.press("w")
+    center = browser.run("return state.center")
+    errors = {}
+    for (x, y), rgb in texels(folder / "images/method2_d1.exr").items():
+        region = (x // 32, y // 32)
+        pair = zip(rgb, reference[x, y])
+        errors[region] = errors.get(region, 0) + (sum((min(EXPOSURE * a, 1) - min(EXPOSURE * b, 1)) ** 2 for a, b in pair) / 3) ** 0.5
+    worst = max(errors, key=errors.get)
+    assert center == [32 * worst[0] + 16, 32 * worst[1] + 16], (center, worst)
+    browser.press("0")
     browser.run("changeComparator({a: 'reference'})")
 
 
@@ -597,7 +608,7 @@ def check_example(browser, folder):
     check_values(browser, folder)
     check_flip(browser)
     check_slider(browser)
-    check_zoom_and_pan(browser)
+    check_zoom_and_pan(browser, folder)
     check_maps(browser)
     check_links(browser, folder)
     browser.open(folder / "index.html")

@@ -288,7 +288,7 @@ void write_page(const fs::path& folder, const Scores& scores) {
                   .exposure = scores.exposure,
                   .sections = {{.heading = "Measures", .table = table_of(scores)}},
                   .provenance = {{"Version", fmt::format("footprint {}", FOOTPRINT_VERSION)}}};
-  write_file_atomically(folder / "index.html", page_html(page, {}));
+  write_file_atomically(folder / "index.html", page_html(page));
 }
 
 // The images of a folder that have a known format, by their paths in it.

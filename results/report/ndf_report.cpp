@@ -32,10 +32,10 @@ std::string conditions(const NdfResults& results) {
                      results.texels, results.level);
 }
 
-// Errors that rounding explains are equal.
+// Errors that rounding explains are equal. The results have a record.
 std::string closest_methods(const NdfResults& results) {
   constexpr double rounding = 1e-5;
-  const double least = std::ranges::min(results.records, {}, &NdfRecord::l2).l2;
+  const double least = std::ranges::min_element(results.records, {}, &NdfRecord::l2)->l2;
   std::vector<std::string> names;
   for (const NdfRecord& record : results.records) {
     if (record.l2 <= std::max(least, rounding)) names.push_back(record.method);
@@ -44,12 +44,12 @@ std::string closest_methods(const NdfResults& results) {
                      names.size() == 1 ? "is" : "are", least < rounding ? "below 1e-05" : figure(least));
 }
 
-PageImage image_of(const std::string& name, const NdfImages& images, double peak) {
+PageImage image_of(const std::string& name, const NdfImages& images, const std::string& caption) {
   return {.name = name,
           .png = images.picture,
           .values = images.density.substr(0, images.density.rfind('.')) + "_values.js",
           .error = images.difference,
-          .caption = "peak " + figure(peak)};
+          .caption = caption};
 }
 
 }  // namespace
@@ -62,9 +62,9 @@ std::string ndf_table(const NdfResults& results) {
 }
 
 std::string ndf_page(const NdfResults& results) {
-  PageView view{.label = "footprint", .images = {image_of("truth", results.exact.images, results.exact.peak)}};
+  PageView view{.label = "footprint", .images = {image_of("truth", results.exact.images, "")}};
   for (const NdfRecord& record : results.records)
-    view.images.push_back(image_of(record.method, record.images, record.peak));
+    view.images.push_back(image_of(record.method, record.images, "L2 " + figure(record.l2)));
   Page page{.title = "NDF of " + results.source,
             .eyebrow = "normal distributions of one footprint",
             .lede = conditions(results) + ".",
@@ -79,9 +79,12 @@ std::string ndf_page(const NdfResults& results) {
                            {"Directions", std::to_string(results.directions)},
                            {"Scale", fmt::format("0 to {} per steradian", figure(results.scale))},
                            {"Version", "footprint " + results.version}}};
-  if (!results.records.empty()) page.answer = {closest_methods(results)};
+  if (!results.records.empty()) {
+    page.answer = {closest_methods(results)};
+    page.shown = {std::ranges::min_element(results.records, {}, &NdfRecord::l2)->method};
+  }
   for (const std::string& note : results.notes) page.provenance.push_back({"Warning", note});
-  return page_html(page, {});
+  return page_html(page);
 }
 
 }  // namespace footprint

@@ -91,14 +91,21 @@ Json sections_json(const std::vector<PageSection>& sections) {
 
 }  // namespace
 
+std::string page_html(const Page& page) { return page_html(page, Json::object()); }
+
 std::string page_html(const Page& page, const nlohmann::ordered_json& own) {
-  Json data{{"answer", page.answer},           {"lede", page.lede},
-            {"exposure", page.exposure},       {"in_false_color", page.in_false_color},
-            {"views", views_json(page.views)}, {"sections", sections_json(page.sections)},
-            {"provenance", Json::array()},     {"scale_colors", scale_colors()}};
+  Json data{{"answer", page.answer},
+            {"lede", page.lede},
+            {"exposure", page.exposure},
+            {"in_false_color", page.in_false_color},
+            {"views", views_json(page.views)},
+            {"shown", page.shown},
+            {"sections", sections_json(page.sections)},
+            {"provenance", Json::array()},
+            {"scale_colors", scale_colors()}};
   for (const Provenance& line : page.provenance)
     data["provenance"].push_back({{"label", line.label}, {"value", line.value}});
-  if (own.is_object()) data.update(own);
+  data.update(own);
   std::string scripts;
   for (const std::string_view file : page_scripts) {
     scripts += fmt::format("<script>\n{}</script>\n", find_text(page_texts, file)->text);

@@ -56,15 +56,19 @@ struct Page {
   std::string text;                      ///< for readers without scripts
   std::vector<std::string> answer = {};  ///< sentences, the most important first
   std::vector<PageView> views = {};
-  bool in_false_color = false;  ///< images are maps of one figure: nothing is exposed, and they have no FLIP
-  double exposure = 1;          ///< from radiance to displayed values
+  std::vector<std::string> shown = {};  ///< images on the first screen, the best last; empty: the first three
+  bool in_false_color = false;          ///< images are maps of one figure: nothing is exposed, and they have no FLIP
+  double exposure = 1;                  ///< from radiance to displayed values
   std::vector<PageSection> sections = {};
   std::vector<Provenance> provenance = {};
   std::string experiment = {}, gpus = {};  ///< HTML
 };
 
 /// The page, whole and self-contained but for the images beside it and their values.
-/// own: further data for the page's scripts, an object or null.
+[[nodiscard]] std::string page_html(const Page& page);
+
+/// The same with further data for the page's scripts.
+/// own: an object; its keys replace those of the page.
 [[nodiscard]] std::string page_html(const Page& page, const nlohmann::ordered_json& own);
 
 }  // namespace footprint

@@ -120,7 +120,7 @@ const usualTop = () => (runs.length && !isFilm
 
 /** The image that is compared at first: the most accurate method. */
 function defaultImage() {
-  const best = runs.length && !isFilm ? ofDistance()?.shown.at(-1) : null;
+  const best = (runs.length && !isFilm ? ofDistance()?.shown : data.shown)?.at(-1);
   return Math.max(1, closest.images.findIndex(({name}) => name === best));
 }
 
@@ -139,9 +139,9 @@ function ledeText() {
     `with a reference of ${count(Math.round(runs[0].results.reference.samples), 'sample')} per pixel.`;
 }
 
-function thumb(image, lines) {
+function thumb(image, isReference, lines) {
   const button = element('button', 'thumb', element('div', 'picture', picture(image.png, image.name)),
-    element('strong', '', ...(image.name === 'reference' ? [] : [key(image.name)]), ...breakable(image.name)),
+    element('strong', '', ...(isReference ? [] : [key(image.name)]), ...breakable(image.name)),
     ...lines.map((text) => element('span', '', text)));
   button.type = 'button';
   button.title = 'Compare this image';
@@ -155,7 +155,8 @@ function thumb(image, lines) {
 /** The images that the answer names, with error and cost. */
 function showThumbs() {
   const images = currentView()?.images ?? [];
-  const named = isFilm || !runs.length ? images.slice(1, 4).map(({name}) => name) : ofDistance()?.shown ?? [];
+  const chosenNames = (runs.length && !isFilm ? ofDistance()?.shown : data.shown) ?? [];
+  const named = chosenNames.length || (runs.length && !isFilm) ? chosenNames : images.slice(1, 4).map(({name}) => name);
   const wanted = [images[0], ...named.map((name) => images.find((image) => image.name === name))].filter(Boolean);
   const linesOf = (image) => {
     const record = runs.length && !isFilm && shown().find((r) => r.method === image.name);
@@ -163,7 +164,7 @@ function showThumbs() {
     const {shading_error: error, change, ratio_to_direct_median: cost} = record.display;
     return [`error ${error}${change ? ` (${change})` : ''}`, `cost ${cost.split(' (')[0]}× direct`];
   };
-  byId('thumbs').replaceChildren(...(wanted.length > 1 ? wanted.map((image) => thumb(image, linesOf(image))) : []));
+  byId('thumbs').replaceChildren(...(wanted.length > 1 ? wanted.map((image, i) => thumb(image, i === 0, linesOf(image))) : []));
 }
 
 function showAnswer() {

@@ -31,36 +31,17 @@ const whiskers = {
   },
 };
 
-/** The count of samples beside each point of the supersampling curve. */
-const countLabels = {
-  id: 'countLabels',
-  afterDatasetsDraw(plot) {
-    plot.data.datasets.forEach((set, i) => {
-      if (!set.counts || !plot.isDatasetVisible(i)) return;
-      const {ctx, chartArea} = plot;
-      ctx.save();
-      ctx.fillStyle = styleValue('--muted');
-      ctx.font = '12px system-ui, sans-serif';
-      plot.getDatasetMeta(i).data.forEach((point, j) => {
-        const text = `${set.counts[j]} spp`;
-        const last = chartArea.right - ctx.measureText(text).width;
-        ctx.fillText(text, Math.min(point.x + 8, last), point.y - 8);
-      });
-      ctx.restore();
-    });
-  },
-};
-
 /** Names beside points, moved away from those that are there; a name that has no room is left to the legend. */
 const pointLabels = {
   id: 'pointLabels',
   afterDatasetsDraw(plot) {
     const {ctx, chartArea} = plot, taken = [];
+    plot.$named = [];  // for tests
     ctx.save();
-    ctx.font = '600 12px system-ui, sans-serif';
     plot.data.datasets.forEach((set, i) => {
       if (!set.names || !plot.isDatasetVisible(i)) return;
-      ctx.fillStyle = styleValue('--ink');
+      ctx.fillStyle = styleValue(set.isQuiet ? '--muted' : '--ink');
+      ctx.font = `${set.isQuiet ? '' : '600 '}12px system-ui, sans-serif`;
       plot.getDatasetMeta(i).data.forEach((point, j) => {
         if (!set.names[j]) return;
         const width = ctx.measureText(set.names[j]).width;
@@ -70,12 +51,12 @@ const pointLabels = {
           const isInside = box[0] >= chartArea.left && box[2] <= chartArea.right && box[1] >= chartArea.top && box[3] <= chartArea.bottom;
           if (!isInside || taken.some((b) => box[0] < b[2] && b[0] < box[2] && box[1] < b[3] && b[1] < box[3])) continue;
           taken.push(box);
+          plot.$named.push(set.names[j]);
           ctx.fillText(set.names[j], box[0], point.y + dy);
           break;
         }
       });
     });
-    plot.$labels = taken;
     ctx.restore();
   },
 };
@@ -149,6 +130,8 @@ function curveSeries(points) {
     label: 'plain supersampling',
     data: points.map((point) => ({x: point.ms, y: plotted(point)})),
     counts: points.map((point) => point.spp),
+    names: points.map((point) => `${point.spp} spp`),
+    isQuiet: true,
     showLine: true,
     borderColor: styleValue('--muted'),
     backgroundColor: styleValue('--muted'),
@@ -284,7 +267,7 @@ function showPlot() {
     `${spp} spp ${figure(plotted(point))} at ${figure(ms)} ms`).slice(-1)}`);
   if (floor && !isNear) lines.push(`noise floor ${figure(floor)}, below this axis`);
   drawChart('plot', datasets, {x: logAxis(costTitle(), x), y: logAxis('Error', y)}, tooltipText,
-    {plugins: [whiskers, countLabels, pointLabels, corner], corner: lines});
+    {plugins: [whiskers, pointLabels, corner], corner: lines});
 }
 
 // ---- figures against distance

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
@@ -120,9 +121,12 @@ std::string recommendation_page(const Recommendation& recommendation) {
             .provenance = provenance_of(recommendation)};
   for (const MaterialAdvice& advice : recommendation.materials)
     page.sections.push_back(section_of(advice, recommendation.limits));
+  if (!page.views.empty()) {
+    for (const PageImage& image : std::span(page.views.front().images).subspan(1)) page.shown.push_back(image.name);
+  }
   if (!recommendation.reports.empty())
     page.sections.push_back({.heading = "Full runs", .links = recommendation.reports});
-  return page_html(page, {});
+  return page_html(page);
 }
 
 }  // namespace footprint

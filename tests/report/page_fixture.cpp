@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -125,7 +124,7 @@ void write_views(const std::filesystem::path& folder) {
        .marked_row = 1,
        .links = {"a b/index.html"}});
   page.provenance = {{"Version", "none"}};
-  write_file_atomically(folder / "index.html", page_html(page, {}));
+  write_file_atomically(folder / "index.html", page_html(page));
 }
 
 void write_fixture(const std::filesystem::path& folder, std::string_view kind) {

@@ -685,5 +685,5 @@ function startComparator() {
   }, {passive: false});
   document.addEventListener('keydown', press);
   new ResizeObserver(draw).observe(stage);
-  window.addEventListener('load', () => requestIdleCallback(() => closest.images.length && [chosen('a'), chosen('b')].forEach(valuesOf)));
+  window.addEventListener('load', () => setTimeout(() => closest.images.length && [chosen('a'), chosen('b')].forEach(valuesOf)));
 }

@@ -440,6 +440,10 @@ def check_distances(browser):
     assert "150 object pixels" in browser.run(TEXT, "#pixels")
     assert words != browser.run(TEXT, "#words")
     assert drawn != plot(browser), "the plot did not follow the distance"
+    sets, corner, least = browser.run("""const chart = Chart.getChart('plot');
+        return [chart.data.datasets.map((set) => set.label), chart.options.corner, chart.scales.y.min]""")
+    assert "noise floor" not in sets and "noise floor 0.0005, below this axis" in corner, (sets, corner)
+    assert least > 0.005, "the axis ends at the data, not at a floor far below"
     wait_for_pictures(browser)
 
 

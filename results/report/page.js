@@ -115,8 +115,13 @@ function currentView() {
 }
 
 const exposureOfView = () => (runs.length ? focus().results.scene.exposure : data.exposure);
-const usualTop = () => (runs.length && !isFilm
-  ? focus().results.error_scales.find(({distance}) => distance === state.distance)?.error ?? focus().results.error_scale : 0.1) || 0.1;
+/** The top of the scale of maps: that of the distance, along a path the largest mean error. */
+function usualTop() {
+  if (isFilm) return Math.max(0.01, ...records.map((r) => r.error?.normalized_color ?? 0));
+  if (!runs.length) return 0.1;
+  const {error_scales: scales, error_scale: shared} = focus().results;
+  return scales.find(({distance}) => distance === state.distance)?.error || shared || 0.1;
+}
 
 /** The image that is compared at first: the most accurate method. */
 function defaultImage() {

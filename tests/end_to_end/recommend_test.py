@@ -67,7 +67,7 @@ class RecommendTest(WholeRunTest):
         command = document_of(folder)["materials"][0]["command"]
         self.assertIn(f"Bake it: {command}\n", output)
         data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
-        (section,) = data["sections"]
+        section = data["sections"][0]
         self.assertEqual(section["sentences"], document_of(folder)["materials"][0]["words"])
         self.assertEqual(section["command"], command)
         self.assertEqual([point["name"] for point in section["plot"]["points"]], [" · ".join(row[:2]) for row in section["table"]["rows"]])

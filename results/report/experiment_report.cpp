@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "results/report/check_outcomes.hpp"
@@ -91,6 +93,15 @@ Table thresholds_table(const ExperimentReport& report) {
   return table;
 }
 
+// Folded if all passed.
+std::string thresholds_html(const ExperimentReport& report) {
+  if (report.thresholds.empty()) return {};
+  const auto passed = std::ranges::count_if(report.thresholds, &ThresholdOutcome::passed);
+  const auto all = std::ssize(report.thresholds);
+  return fmt::format("<details{}><summary>{} of {} thresholds passed</summary>\n{}</details>\n",
+                     passed == all ? "" : " open", passed, all, html_table(thresholds_table(report)));
+}
+
 // The text of a claim, its figures, and the reason for its expected verdict.
 std::string claim_sentence(const ClaimOutcome& claim) {
   return fmt::format("{}: {} {} Figures: {}. Expected to be {}: {}", claim.name, claim.text,
@@ -156,7 +167,7 @@ std::string experiment_html(const ExperimentReport& report) {
   for (const ClaimOutcome& claim : report.claims)
     html += fmt::format("<li>{}</li>\n", html_escaped(claim_sentence(claim)));
   if (!report.claims.empty()) html += "</ul>\n";
-  return html + html_table(second_verdicts_table(report)) + html_table(thresholds_table(report)) + "</section>\n";
+  return html + html_table(second_verdicts_table(report)) + thresholds_html(report) + "</section>\n";
 }
 
 }  // namespace footprint

@@ -143,9 +143,9 @@ std::string gpu_costs_markdown(const Results& results) {
 std::string gpu_costs_html(const Results& results) {
   const std::vector<Table> tables = gpu_tables(results);
   if (tables.empty()) return {};
-  std::string html = "<section aria-labelledby=\"gpu-title\"><h2 id=\"gpu-title\">Estimated cost on GPUs</h2>\n";
+  std::string html = "<details class=\"fold\" id=\"gpus\"><summary>Estimated cost on GPUs</summary>\n";
   for (const Table& table : tables) html += html_table(table);
-  return html + fmt::format("<p class=\"note\">{}</p></section>\n", html_escaped(gpu_note));
+  return html + fmt::format("<p class=\"note\">{}</p></details>\n", html_escaped(gpu_note));
 }
 
 void write_cost(const CostReport& report, const std::filesystem::path& folder) {

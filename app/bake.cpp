@@ -62,7 +62,7 @@ BakedMethod bake_settings(const RunSettings& run, const Scene& scene, const Effe
   const MethodSpec& spec = run.methods.front();
   const std::optional<DiskCache> files = cache_of(run);
   const std::optional<BakeCache> cache = files ? std::optional<BakeCache>(*files) : std::nullopt;
-  return bake(find_method(spec.name), spec, scene, effects, progress, cache ? &*cache : nullptr);
+  return bake(find_method(spec), spec, scene, effects, progress, cache ? &*cache : nullptr);
 }
 
 void require_gltf(const std::string& scene) {

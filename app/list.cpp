@@ -15,6 +15,7 @@
 #include "app/messages.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
+#include "renderer/bake/method_file.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/core/process.hpp"
@@ -31,6 +32,7 @@ constexpr const char* list_examples =
     "Examples:\n"
     "  footprint list                               everything\n"
     "  footprint list methods                       the methods and their options\n"
+    "  footprint list ./mine.glsl                   a method in a file (docs/method-files.md)\n"
     "  footprint list scenes --json                 for programs";
 
 constexpr const char* info_examples =
@@ -201,6 +203,10 @@ Json kind_json(const std::string& kind) {
 }
 
 void run_list(const ListArguments& arguments) {
+  if (names_method_file(arguments.kind)) {
+    const MethodInfo info = read_method_file(arguments.kind)->info;
+    return write_output(arguments.json ? method_json(info).dump(2) + "\n" : method_text(info));
+  }
   std::vector<std::string> shown = kinds;
   if (!arguments.kind.empty()) shown = {kinds[find_word(kinds, arguments.kind, "kind", "list")]};
   Json json;
@@ -230,7 +236,9 @@ struct CompletionsArguments {
 void add_list_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces, experiments and backends");
   const auto arguments = std::make_shared<ListArguments>();
-  command->add_option("kind", arguments->kind, "methods, scenes, surfaces, experiments or backends; default: all")
+  command
+      ->add_option("kind", arguments->kind,
+                   "methods, scenes, surfaces, experiments, backends, or a method's FILE.glsl; default: all")
       ->type_name("KIND");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(list_examples);

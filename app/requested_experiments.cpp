@@ -94,6 +94,8 @@ std::string fingerprint_of(const RequestedExperiments& requested, const Experime
   for (const Experiment& experiment : requested.experiments) {
     add_file(experiment.file);
     if (experiment.presets) add_file(*experiment.presets);
+    for (const MethodSpec& method : experiment.run.methods)
+      if (method.file) hash.add(method.file->file_content);
     hash.add(experiment.full_name());
     hash.add(fmt::format("{} {}", experiment.run.timing.processes, experiment.run.backend.tile));
   }

@@ -34,7 +34,7 @@ Bake quickest(const MethodSpec& spec, const Scene& scene, const EffectSet& effec
   for (int i = 0; i < rounds; ++i) {
     const std::clock_t cpu = std::clock();
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t bytes = bake(find_method(spec.name), spec, scene, effects, no_progress).bytes;
+    const std::size_t bytes = bake(find_method(spec), spec, scene, effects, no_progress).bytes;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (seconds < best.seconds) best = {seconds, static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC, bytes};
   }

@@ -129,7 +129,7 @@ class MethodRows {
       : scene_(scene_of_facets(material)),
         effects_(effects()),
         gpu_(context.info(), scene_, effects_),
-        baked_(bake(find_method(spec.name), spec, scene_, effects_, no_progress)),
+        baked_(bake(find_method(spec), spec, scene_, effects_, no_progress)),
         ndf_(context.info(), gpu_, baked_, scene_.materials.front(), {.kind = FootprintFilterKind::trilinear}) {}
 
   [[nodiscard]] Errors errors(const std::vector<FootprintRect>& rects, const Rows& rows,

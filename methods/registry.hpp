@@ -14,4 +14,7 @@ namespace footprint {
 /// The method of a name. Errors (usage): unknown, with the nearest right one.
 [[nodiscard]] const Method& find_method(const std::string& name);
 
+/// The method of a spec: of the file that it names, or of its name. Errors (usage): as above.
+[[nodiscard]] const Method& find_method(const MethodSpec& spec);
+
 }  // namespace footprint

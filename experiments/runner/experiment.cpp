@@ -202,7 +202,7 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
 std::vector<const Quantity*> quantities_called(const std::string& name, const Experiment& experiment) {
   std::vector<const Quantity*> found;
   for (const MethodSpec& method : experiment.run.methods) {
-    const Quantity* const quantity = find_quantity(find_method(method.name), name);
+    const Quantity* const quantity = find_quantity(find_method(method), name);
     if (quantity != nullptr) found.push_back(quantity);
   }
   return found;
@@ -406,6 +406,7 @@ Experiment read_experiment(const fs::path& file) {
   Experiment experiment;
   experiment.name = file.stem().string();
   experiment.file = file;
+  experiment.run.method_folder = file.parent_path();
   const TomlTable root = root_of(experiment);
   const auto head = root.table("experiment", with(setting_keys("experiment"), head_keys));
   if (!head) refuse_missing(root, "experiment", experiments_document);

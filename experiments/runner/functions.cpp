@@ -87,10 +87,9 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
   if (named == experiment.quantities.end()) {
     refuse(measure, fmt::format("`{:.80}` is not a quantity", *measure.name), "use the name of one of [[quantity]]");
   }
-  const std::string& method =
-      experiment.run.methods[select_method(measure.method, texts_of(experiment.run.methods))].name;
+  const MethodSpec& method = experiment.run.methods[select_method(measure.method, texts_of(experiment.run.methods))];
   if (find_quantity(find_method(method), named->quantity) != nullptr) return;
-  refuse(measure, fmt::format("{} has no figure `{}`", method, named->quantity), "name a method that has it");
+  refuse(measure, fmt::format("{} has no figure `{}`", method.name, named->quantity), "name a method that has it");
 }
 
 // ---- evaluate

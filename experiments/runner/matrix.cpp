@@ -82,7 +82,7 @@ std::vector<std::string> times_options(const TomlTable& table, const std::string
   return texts;
 }
 
-void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
+void read_options(const TomlTable& matrix, const std::filesystem::path& folder, std::vector<MethodSpec>& methods) {
   const std::vector<std::string> varied = matrix.keys_of("options");
   const TomlTable table = *matrix.table("options", varied);
   std::vector<std::string> texts(methods.size());
@@ -103,7 +103,7 @@ void read_options(const TomlTable& matrix, std::vector<MethodSpec>& methods) {
   std::vector<MethodSpec> all;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     for (const std::string& text : variants[i]) {
-      at_key(matrix, "options", [&] { all.push_back(parse_methods_with_histories(text).front()); });
+      at_key(matrix, "options", [&] { all.push_back(parse_methods_with_histories(text, folder).front()); });
       if (std::ranges::count(all, all.back().text, &MethodSpec::text) > 1)
         throw matrix.error_at("options", fmt::format("makes `{:.80}` twice", text), "give each value once");
     }
@@ -210,7 +210,7 @@ void read_matrix(const TomlTable& root, Experiment& experiment) {
       throw matrix.error_at(key, fmt::format("makes {} members, {} at most", members, most_members),
                             "leave values out, or split the experiment");
   }
-  if (matrix.has("options")) read_options(matrix, experiment.run.methods);
+  if (matrix.has("options")) read_options(matrix, experiment.run.method_folder, experiment.run.methods);
 }
 
 std::vector<Experiment> members_of_matrix(const Experiment& whole) {

@@ -111,7 +111,7 @@ std::vector<QuantityFigure> measure_quantities(const Experiment& experiment, con
   for (const NamedQuantity& named : experiment.quantities) {
     for (const MethodSpec& spec : experiment.run.methods) {
       parts.next(1, "")(fmt::format("{} of {}", named.name, spec.text), 0.0);
-      const Method& method = find_method(spec.name);
+      const Method& method = find_method(spec);
       const Quantity* const quantity = find_quantity(method, named.quantity);
       if (quantity == nullptr) continue;
       try {

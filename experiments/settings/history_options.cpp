@@ -51,10 +51,10 @@ const std::array<HistoryOption, 4>& history_options() {
   return options;
 }
 
-std::vector<MethodSpec> parse_methods_with_histories(const std::string& text) {
+std::vector<MethodSpec> parse_methods_with_histories(const std::string& text, const std::filesystem::path& folder) {
   std::vector<MethodSpec> methods = parse_methods(text);
   for (MethodSpec& method : methods) separate_history(method);
-  check_known(methods);
+  take_known(methods, folder);
   return methods;
 }
 

@@ -21,7 +21,8 @@ struct HistoryOption {
 
 /// Methods, each of which may have options of its own history. Errors (usage): those of parse_known_methods, or a value
 /// that its option does not take.
-[[nodiscard]] std::vector<MethodSpec> parse_methods_with_histories(const std::string& text);
+[[nodiscard]] std::vector<MethodSpec> parse_methods_with_histories(const std::string& text,
+                                                                   const std::filesystem::path& folder = {});
 
 /// The history of a method's frames.
 /// common: that of the run's methods; options of the method's own replace it.

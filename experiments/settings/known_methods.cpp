@@ -1,20 +1,24 @@
-// Checks the options of each method in a text, and finds figures by their names.
+// Reads methods that are files, checks the options of each method in a text, and finds figures by their names.
 #include "experiments/settings/known_methods.hpp"
 
 #include <algorithm>
 
 #include "methods/registry.hpp"
 #include "renderer/bake/baked_method.hpp"
+#include "renderer/bake/method_file.hpp"
 
 namespace footprint {
 
-void check_known(std::span<const MethodSpec> methods) {
-  for (const MethodSpec& method : methods) (void)options_of(find_method(method.name), method);
+void take_known(std::span<MethodSpec> methods, const std::filesystem::path& folder) {
+  for (MethodSpec& method : methods) {
+    if (names_method_file(method.name)) method.file = read_method_file(method.name, folder);
+    (void)options_of(find_method(method), method);
+  }
 }
 
-std::vector<MethodSpec> parse_known_methods(const std::string& text) {
+std::vector<MethodSpec> parse_known_methods(const std::string& text, const std::filesystem::path& folder) {
   std::vector<MethodSpec> methods = parse_methods(text);
-  check_known(methods);
+  take_known(methods, folder);
   return methods;
 }
 
@@ -43,7 +47,7 @@ const Quantity* find_quantity(const Method& method, const std::string& name) {
 std::vector<std::string> quantity_names(std::span<const MethodSpec> methods) {
   std::vector<std::string> names;
   for (const MethodSpec& method : methods) {
-    for (const Quantity& quantity : quantities_of(find_method(method.name))) {
+    for (const Quantity& quantity : quantities_of(find_method(method))) {
       if (std::ranges::find(names, quantity.name) == names.end()) names.push_back(quantity.name);
     }
   }

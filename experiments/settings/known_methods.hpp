@@ -1,6 +1,7 @@
 // Reads methods, checks them against those of the program, and finds their figures that no picture shows.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,11 +11,14 @@
 
 namespace footprint {
 
-/// Errors (usage): unknown method or option, with the nearest name.
-void check_known(std::span<const MethodSpec> methods);
+/// Checks methods and their options, and reads those that are files (read_method_file).
+/// folder: where a file's relative path starts.
+/// Errors (usage): unknown method or option, with the nearest name; a file's.
+void take_known(std::span<MethodSpec> methods, const std::filesystem::path& folder);
 
-/// Comma-separated methods with their options, checked before anything is loaded. Errors (usage): those of check_known.
-[[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text);
+/// Comma-separated methods with their options, checked before anything is loaded. Errors (usage): those of take_known.
+[[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text,
+                                                          const std::filesystem::path& folder = {});
 
 /// The methods as they were written.
 [[nodiscard]] std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods);

@@ -140,6 +140,8 @@ struct RunSettings {
   SceneLibrary scene_library;  ///< the scenes and surfaces that have names
   SceneOverrides overrides;    ///< of the scene's own settings
   std::vector<MethodSpec> methods;
+  std::filesystem::path
+      method_folder{};       ///< where relative paths of methods' files start; empty: the working directory
   bool by_material = false;  ///< also measure errors by material
   EffectSet without;         ///< effects that every method and the reference leave out
   ViewSettings view;

@@ -115,9 +115,10 @@ std::optional<Exposure> parse_exposure(std::string_view option, std::string_view
                   .source = option.empty() ? ExposureSource::experiment : ExposureSource::command_line};
 }
 
-MethodSpec parse_one_method(std::string_view option, const std::string& text, MethodParser parse) {
+MethodSpec parse_one_method(std::string_view option, const std::string& text, const std::filesystem::path& folder,
+                            MethodParser parse) {
   if (text == "reference") return {.text = text, .name = text, .options = {}};
-  const std::vector<MethodSpec> methods = parse(text);
+  const std::vector<MethodSpec> methods = parse(text, folder);
   if (methods.size() == 1) return methods.front();
   throw not_valid(option, text, "is more than one method", "name one");
 }
@@ -312,21 +313,23 @@ SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
 
 SettingType one_method(Field<std::vector<MethodSpec>> field, MethodParser parse) {
   return {.word = "M",
-          .takes = "name or name:option=value",
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = {parse_one_method(option, text, parse)}; },
+          .takes = "name or FILE.glsl, or name:option=value",
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                field(run) = {parse_one_method(option, text, run.method_folder, parse)};
+              },
           .text = methods(field).text};
 }
 
 SettingType methods(Field<std::vector<MethodSpec>> field, MethodParser parse) {
   return {.word = "LIST",
-          .takes = "name or name:option=value each, comma-separated",
+          .takes = "name, FILE.glsl or name:option=value each, comma-separated",
           .file_takes =
               R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for all but slow ones with their defaults)",
           .read_text =
               [=](RunSettings& run, std::string_view option, const std::string& text) {
                 const bool are_all = option.empty() && text == "all";  // in files
-                field(run) = are_all ? every_method() : parse(text);
+                field(run) = are_all ? every_method() : parse(text, run.method_folder);
               },
           .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(texts_of(field(run)), ",")); },
           .separator = ','};

@@ -71,8 +71,8 @@ using Field = Value& (*)(RunSettings& run);
 /// A footprint filter.
 [[nodiscard]] SettingType footprint_filter(Field<std::optional<FootprintFilter>> field);
 
-/// Reads comma-separated methods, and checks them.
-using MethodParser = std::vector<MethodSpec> (*)(const std::string& text);
+/// Reads comma-separated methods, and checks them; files are relative to `folder`.
+using MethodParser = std::vector<MethodSpec> (*)(const std::string& text, const std::filesystem::path& folder);
 
 /// One method, or `reference`.
 [[nodiscard]] SettingType one_method(Field<std::vector<MethodSpec>> field, MethodParser parse = parse_known_methods);

@@ -233,7 +233,7 @@ class Editor {
     const Progress report = clock.callback(progress);
     BakedMethod baked = edited_ == brdf_kind && drawing_ && drawing_->effects == effects
                             ? bake_after_brdf(*drawing_->baked, scene_, effects, report)
-                            : bake(find_method(method().name), method(), scene_, effects, report);
+                            : bake(find_method(method()), method(), scene_, effects, report);
     clock.stop();
     double other = baked.seconds;
     for (const StageTime& time : clock.times()) {

@@ -266,7 +266,7 @@ class NdfEvaluator {
 
   // The weight of a method in progress; 1 for a bake of milliseconds.
   [[nodiscard]] double weight_of(const MethodSpec& spec) const {
-    const MethodInfo& info = find_method(spec.name).info;
+    const MethodInfo& info = find_method(spec).info;
     if (!info.slow_precompute) return 1.0;
     constexpr double slow = 30.0;
     return info.bakes_by_texel ? std::max(slow * share_, 1.0) : slow;
@@ -274,7 +274,7 @@ class NdfEvaluator {
 
   // Adds the figures of a method to `results` and gives its picture.
   NdfPicture inspect(const MethodSpec& spec, const Grid& grid, NdfResults& results, const Progress& progress) {
-    const Method& method = find_method(spec.name);
+    const Method& method = find_method(spec);
     BakeTarget& target = target_of(method);
     const BakedMethod baked = bake(method, spec, target.scene, effects_, progress, bakes_ ? &*bakes_ : nullptr);
     const MethodNdf ndf(context_.info(), target.gpu, baked, target.scene.materials.front(), filter_of(settings_.run),

@@ -62,7 +62,7 @@ auto by_footprint(Values& values, const std::string& footprint) {
 }
 
 // The values of all options, so that `tan_gmm` is `tan_gmm:n=4`.
-Options options_of(const MethodSpec& spec) { return {find_method(spec.name).info.options, spec.options, spec.name}; }
+Options options_of(const MethodSpec& spec) { return {find_method(spec).info.options, spec.options, spec.name}; }
 
 const QuickMethod* method_of(const QuickModel& model, const MethodSpec& wanted) {
   for (const QuickMethod& method : model.methods) {

@@ -113,7 +113,10 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
   hash.add(settings.without.to_string());
   hash.add(fmt::format("{} {} {}", settings.backend.tile, settings.by_material,
                        footprint_filter_text(footprint_filter_of(settings, scene))));
-  for (const MethodSpec& method : settings.methods) hash.add(method.text);
+  for (const MethodSpec& method : settings.methods) {
+    hash.add(method.text);
+    if (method.file) hash.add(method.file->file_content);
+  }
   hash.add(fmt::format("{}", fmt::join(settings.gpus, ",")));
   add_view(hash, settings, scene);
   add_reference(hash, settings.reference);

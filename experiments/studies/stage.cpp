@@ -50,7 +50,7 @@ PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, co
 PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
                                const MethodSpec& spec, const std::optional<DiskCache>& files,
                                const Progress& progress) {
-  const Method& method = find_method(spec.name);
+  const Method& method = find_method(spec);
   if (!files) return bake_and_upload(gpu_scene, scene, effects, method, spec, nullptr, progress);
   const BakeCache cache(*files);
   return bake_and_upload(gpu_scene, scene, effects, method, spec, &cache, progress);
@@ -133,8 +133,8 @@ PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
       effects(effects_on(decisions) & ~settings.without) {}
 
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
-    : prepared_(std::make_shared<const PreparedMethod>(PreparedMethod{
-          .baked = std::make_unique<BakedMethod>(make_bake(find_method(spec.name), spec)), .gpu = nullptr})),
+    : prepared_(std::make_shared<const PreparedMethod>(
+          PreparedMethod{.baked = std::make_unique<BakedMethod>(make_bake(find_method(spec), spec)), .gpu = nullptr})),
       drawn_{.spec = spec, .filter = {}},
       refusal_(refusal) {}
 

@@ -38,15 +38,6 @@ std::vector<Image> spread_chain(Image normals, Preset preset) {
   return chain;
 }
 
-Prefiltered bake_mean_roughness(const Material& material, Storage storage, const EffectSet& effects) {
-  Prefiltered out;
-  if (has(effects, Effect::roughness_variation)) {
-    out.textures.push_back(make_texture("baked_roughness", mip_chain(roughness_map_of(material)), storage,
-                                        roughness_coordinates(material)));
-  }
-  return out;
-}
-
 Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage, const EffectSet& effects) {
   const Storage wide = spread_storage(storage);
   Prefiltered out = bake_mean_normal(material, storage, effects);

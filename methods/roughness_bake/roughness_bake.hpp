@@ -14,9 +14,6 @@ namespace footprint::roughness_bake {
 /// Material::normal_map), one channel, from the finest level's normals.
 [[nodiscard]] std::vector<Image> spread_chain(Image normals, Preset preset);
 
-/// The mean roughness as texture `baked_roughness`; none if the roughness does not vary.
-[[nodiscard]] Prefiltered bake_mean_roughness(const Material& material, Storage storage, const EffectSet& effects);
-
 /// bake_mean_roughness, the mean normal, and the preset's values of the spread: `normal_spread` and `layer_spread`, one
 /// channel, from the finest level's normals. Each only if `effects` has it. With unorm8 spreads are in half floats,
 /// because bytes cannot store a sum of variances.

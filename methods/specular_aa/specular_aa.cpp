@@ -48,7 +48,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   const auto [bake, storage] = settings_of(options);
   if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
   Prefiltered out = bake_mean_normal(material, storage, effects);
-  append(out.textures, roughness_bake::bake_mean_roughness(material, storage, effects).textures);
+  append(out.textures, bake_mean_roughness(material, storage, effects).textures);
   return out;
 }
 

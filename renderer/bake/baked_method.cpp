@@ -43,7 +43,7 @@ Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, c
   if (cache == nullptr || !method.info.slow_precompute)
     return {precomputed(method, scene, index, options, effects, progress), false};
   const Material& material = scene.materials[index];
-  const std::string key = cache->key(method.info.name, material, options, effects);
+  const std::string key = cache->key(method.info.name + method.file_content, material, options, effects);
   if (std::optional<Prefiltered> cached = cache->find(key)) return {*std::move(cached), true};
   Outcome outcome{precomputed(method, scene, index, options, effects, progress), false};
   cache->store(key, outcome.prefiltered);

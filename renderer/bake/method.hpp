@@ -135,6 +135,10 @@ struct Method {
   std::function<std::optional<std::vector<Image>>(const Material& material, const Options& options)> roughness_mips =
       [](const Material& /*material*/, const Options& /*options*/) { return std::optional<std::vector<Image>>(); };
 
+  /// Of a method from a file: the hash of the file and of its images, for keys of caches. Empty: a method of the
+  /// program.
+  std::string file_content = {};
+
   /// Lobes of the effective NDF that the shader evaluates per pixel, with isotropic filtering.
   std::function<int(const Options& options)> lobe_count = [](const Options& /*options*/) { return 1; };
 };

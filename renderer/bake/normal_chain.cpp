@@ -94,6 +94,15 @@ Prefiltered bake_lobe_variance(const Material& material, Storage storage, const 
   return out;
 }
 
+Prefiltered bake_mean_roughness(const Material& material, Storage storage, const EffectSet& effects) {
+  Prefiltered out;
+  if (has(effects, Effect::roughness_variation)) {
+    out.textures.push_back(make_texture("mean_roughness", mip_chain(roughness_map_of(material)), storage,
+                                        roughness_coordinates(material)));
+  }
+  return out;
+}
+
 OptionSpec storage_option() {
   return word_option("storage", {"fp32", "fp16", "unorm8"},
                      "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.");

@@ -55,6 +55,10 @@ enum class RoughnessMean {
 /// The unit of variances in that texture: a power of two, so that scaling does not round.
 inline constexpr float stored_lobe_variance = 1.0F / 64.0F;
 
+/// The texture `mean_roughness` of mean_roughness.glsl, means of the perceptual roughness as importers make them; none
+/// if the roughness does not vary.
+[[nodiscard]] Prefiltered bake_mean_roughness(const Material& material, Storage storage, const EffectSet& effects);
+
 /// `storage=fp32|fp16|unorm8`.
 [[nodiscard]] OptionSpec storage_option();
 

@@ -179,7 +179,7 @@ BakeListing list_bake(const BakeToFiles& bake) {
   std::vector<std::string> names;
   for (const Material& material : bake.scene.materials) names.push_back(material.name);
   const std::vector<std::string> folders = distinct_stems(names);
-  BakeListing listing{.module = file_stem(bake.baked.spec.name) + ".glsl", .materials = {}};
+  BakeListing listing{.module = bake.baked.method->info.name + ".glsl", .materials = {}};
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const std::string folder = "maps/" + folders[i];
     MaterialFiles& files = listing.materials.emplace_back();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -58,12 +59,15 @@ class Options {
   std::map<std::string, std::variant<double, std::string>, std::less<>> values_;
 };
 
+struct Method;  // renderer/bake/method.hpp
+
 /// A method as written on the command line: `name` or `name:option=value:option=value`.
 struct MethodSpec {
   std::string text;  ///< as written
   std::string name;
   std::map<std::string, std::string> options;
   std::map<std::string, std::string> history{};  ///< options of the history of its frames (docs/temporal.md)
+  std::shared_ptr<const Method> file{};  ///< read from the file that `name` names; null: a method of the program
 };
 
 /// Splits "a,b:x=1:y=2". Throws Error (usage): empty names, an option without `=`, an option or a text given twice.

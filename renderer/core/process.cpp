@@ -10,9 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <csignal>
 #include <fstream>
+#include <mutex>
 #include <string_view>
+#include <utility>
 
 #include "renderer/core/error.hpp"
 
@@ -38,7 +41,22 @@ std::string architecture() {
   return uname(&system) == 0 ? system.machine : "unknown processor";
 }
 
+// Neither the stack nor static objects are unwound: the thread that works may use them.
+[[noreturn]] void end_process(const std::string& message) {
+  const std::string line = fmt::format("{}footprint: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\n" : "", message);
+  static_cast<void>(::write(STDERR_FILENO, line.data(), line.size()) == 0);
+  ::_exit(static_cast<int>(ErrorKind::machine));
+}
+
 }  // namespace
+
+TimeLimit::TimeLimit(std::chrono::milliseconds limit, std::string message)
+    : watch_([limit, message = std::move(message)](const std::stop_token& stop) {
+        std::mutex mutex;
+        std::unique_lock lock(mutex);
+        std::condition_variable_any ended;
+        if (!ended.wait_for(lock, stop, limit, [&] { return stop.stop_requested(); })) end_process(message);
+      }) {}
 
 std::string host_name() {
   std::array<char, 256> name{};  // POSIX: HOST_NAME_MAX is 255 at most

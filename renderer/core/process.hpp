@@ -1,8 +1,10 @@
-// The machine that the process runs on, and Ctrl-C, turned into an Error at the next safe point.
+// The machine that the process runs on, Ctrl-C, turned into an Error at the next safe point, and limits of time.
 #pragma once
 
+#include <chrono>
 #include <iosfwd>
 #include <string>
+#include <thread>
 
 namespace footprint {
 
@@ -27,5 +29,16 @@ void watch_interrupts();
 
 /// Throws Error (interrupted) after such a signal. It is cheap, so call it in every long loop.
 void throw_if_interrupted();
+
+/// Ends the process with exit code 3 and one message if it lives longer than its limit: for calls of a driver, which
+/// nothing can interrupt.
+class TimeLimit {
+ public:
+  /// message: one line, without a newline.
+  TimeLimit(std::chrono::milliseconds limit, std::string message);
+
+ private:
+  std::jthread watch_;
+};
 
 }  // namespace footprint

@@ -18,15 +18,19 @@ std::string line_place(const std::filesystem::path& file, const toml::source_reg
   return fmt::format("{}:{}", source.path ? *source.path : file.string(), source.begin.line);
 }
 
-toml::table parse_file(const std::filesystem::path& file) {
-  constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
-  const auto bytes = read_file_bytes(file, largest);
+toml::table parse_text(const std::filesystem::path& file, std::string_view text) {
   try {
-    return toml::parse(std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+    return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw Error(ErrorKind::usage, line_place(file, error.source()),
                 fmt::format("not valid TOML: {}", error.description()), "correct the line");
   }
+}
+
+toml::table parse_file(const std::filesystem::path& file) {
+  constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
+  const auto bytes = read_file_bytes(file, largest);
+  return parse_text(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 // Moves missing entries into `target`, because copies of nodes lose their line.
@@ -84,6 +88,9 @@ std::shared_ptr<const TomlTable::Parsed> TomlTable::Parsed::whole(toml::table co
 
 TomlTable::TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known)
     : TomlTable(Parsed::whole(parse_file(file)), file, "", known) {}
+
+TomlTable::TomlTable(const std::filesystem::path& file, std::string_view text, const std::vector<std::string>& known)
+    : TomlTable(Parsed::whole(parse_text(file, text)), file, "", known) {}
 
 TomlTable TomlTable::over_presets(const std::filesystem::path& file, const std::filesystem::path& presets,
                                   const std::vector<std::string>& known, const std::vector<std::string>& joined) {

@@ -29,6 +29,9 @@ class TomlTable {
   /// Throws Error (usage) "FILE:LINE: ...": missing, empty, not TOML, or an unknown key, with the nearest known one.
   TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known);
 
+  /// Reads a part of a file, in front of which `text` has as many lines as the file.
+  TomlTable(const std::filesystem::path& file, std::string_view text, const std::vector<std::string>& known);
+
   /// Reads a file over another with presets: tables that `file` lacks come from the presets, and so do keys that its
   /// `joined` tables lack. Errors name the file of their line.
   static TomlTable over_presets(const std::filesystem::path& file, const std::filesystem::path& presets,

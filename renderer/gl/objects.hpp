@@ -127,6 +127,9 @@ class RenderTarget {
   int width_ = 0, height_ = 0;
 };
 
+/// The smallest line number that a compiler's log names; 0: it names none.
+[[nodiscard]] int smallest_line_in(std::string_view log);
+
 /// A linked program.
 class Program {
  public:

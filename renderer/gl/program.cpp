@@ -184,6 +184,11 @@ std::map<std::string, Program::Uniform, std::less<>> active_uniforms(GLuint prog
 
 }  // namespace
 
+int smallest_line_in(std::string_view log) {
+  const std::set<Location> locations = locations_in(log);
+  return locations.empty() ? 0 : locations.begin()->second;
+}
+
 Program::Program(const std::string& name, std::string_view vertex_source, std::string_view fragment_source)
     : handle_(link(name, {{GL_VERTEX_SHADER, vertex_source}, {GL_FRAGMENT_SHADER, fragment_source}})),
       uniforms_(active_uniforms(handle_.name())) {}

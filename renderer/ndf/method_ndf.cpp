@@ -30,7 +30,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
 gl::Program program_of(const GpuScene& scene, const BakedMethod& baked, const FootprintFilter& filter) {
   const ShaderText density =
       ndf_shader(variant_of(scene, baked, filter), baked.method->shader, baked.options, baked.materials.front());
-  return {fmt::format("ndf of {} ({})", baked.spec.text, density.lines()), screen_vertex_shader(), density.text()};
+  return method_program(baked, "ndf of " + baked.spec.text, screen_vertex_shader(), density);
 }
 
 // Looks from above, so that the axes of the camera and the plane coincide.
@@ -143,8 +143,11 @@ std::vector<float> MethodNdf::densities(const FootprintRect& rect, std::span<con
     std::ranges::fill(block, glm::vec4(0.0F));
     for (std::size_t i = 0; i < count; ++i) block[i] = glm::vec4(directions[out.size() + i], 0.0F);
     listed.upload(0, edge_, static_cast<int>(rows), GL_RGBA, GL_FLOAT, block.data());
-    draw(target, listed);
-    target.read(0, 1, read);
+    {
+      const std::optional<TimeLimit> limit = limit_of(gpu_.baked(), "draw its distribution");
+      draw(target, listed);
+      target.read(0, 1, read);
+    }
     out.insert(out.end(), read.begin(), read.begin() + static_cast<std::ptrdiff_t>(count));
   }
   return out;

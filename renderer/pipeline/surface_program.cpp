@@ -289,6 +289,29 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, SamplerState state)
   if (part.block.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.block.name());
 }
 
+std::optional<TimeLimit> limit_of(const BakedMethod& baked, std::string_view what, int factor) {
+  if (baked.method->file_content.empty()) return {};
+  const std::chrono::seconds limit = factor * file_method_limit;
+  return std::optional<TimeLimit>(std::in_place, limit,
+                                  fmt::format("{}: takes more than {} s to {} (shorten its loops and its text)",
+                                              baked.method->shader.file, limit.count(), what));
+}
+
+gl::Program method_program(const BakedMethod& baked, std::string_view name, std::string_view vertex,
+                           const ShaderText& fragment) {
+  const std::optional<TimeLimit> limit = limit_of(baked, "compile");
+  try {
+    return {fmt::format("{} ({})", name, fragment.lines()), vertex, fragment.text()};
+  } catch (const Error& error) {
+    if (!limit) throw;
+    const int line = gl::smallest_line_in(error.message());
+    const std::string_view file = baked.method->shader.file;
+    throw Error(ErrorKind::usage,
+                line > 0 && line < first_shared_line ? fmt::format("{}:{}", file, line) : std::string(file),
+                error.message(), "docs/method-files.md has the functions that a module defines and may call");
+  }
+}
+
 ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
   ShaderVariant variant = variant_of(scene, baked, settings);
   TextureUnits units = forward_units(variant, baked.materials.front());
@@ -309,8 +332,7 @@ SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const 
       units_(std::move(program.units)),
       fragment_text_(program.shaders.fragment.text()) {
   const ForwardShaders& shaders = program.shaders;
-  program_ =
-      gl::Program(fmt::format("{} ({})", baked.spec.text, shaders.fragment.lines()), shaders.vertex, fragment_text_);
+  program_ = method_program(baked, baked.spec.text, shaders.vertex, shaders.fragment);
   units_.require_all_of(program_, baked.spec.text);
   if (variant_.area_lobes) (void)scene.area_cosines();
   if (has(variant_.effects, Effect::environment_light)) scene.environment()->prepare(variant_.environment);
@@ -389,8 +411,24 @@ glm::vec3 SurfaceProgram::drawn_texels(const GpuMethod& method, const GpuBatch& 
   return {size, one ? 1.0F : 4.0F};
 }
 
+// The first draw of a method from a file is waited for, within its limit.
 void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
                           const SampleDraw& samples) const {
+  std::optional<TimeLimit> limit;
+  if (!has_drawn_) {
+    constexpr int most_lights = 100;  // a factor for an environment as directional lights
+    std::array<GLint, 4> viewport{};
+    gl::api().GetIntegerv(GL_VIEWPORT, viewport.data());
+    const int factor = variant_.environment == EnvironmentUse::dense ? most_lights : 1;
+    limit = limit_of(method.baked(), "draw its first frame", factor * (1 + viewport[2] * viewport[3] / (1 << 20)));
+  }
+  draw_batches(scene, method, view, world_to_clip, samples);
+  if (limit) gl::api().Finish();
+  has_drawn_ = true;
+}
+
+void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, const View& view,
+                                  const glm::mat4& world_to_clip, const SampleDraw& samples) const {
   const bool environment_light = has(variant_.effects, Effect::environment_light);
   if (variant_.sampling != Sampling::frame || is_stochastic(variant_.footprint)) set_samples(samples);
   gl::api().UseProgram(program_.name());

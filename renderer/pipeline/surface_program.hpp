@@ -2,14 +2,17 @@
 // sampling.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renderer/bake/baked_method.hpp"
+#include "renderer/core/process.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
@@ -128,6 +131,18 @@ struct ForwardProgram {
 [[nodiscard]] ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked,
                                              const ProgramSettings& settings);
 
+/// The longest that a method from a file may take to compile, and to draw its first 2^20 samples.
+inline constexpr std::chrono::seconds file_method_limit{60};
+
+/// Ends the program if a method from a file takes longer to do `what`. None for other methods.
+/// factor: on file_method_limit.
+[[nodiscard]] std::optional<TimeLimit> limit_of(const BakedMethod& baked, std::string_view what, int factor = 1);
+
+/// A program around a method's module. Throws Error: it does not compile (machine), with the compiler's log and the
+/// lines that it names; of a method from a file (usage), in the place FILE:LINE.
+[[nodiscard]] gl::Program method_program(const BakedMethod& baked, std::string_view name, std::string_view vertex,
+                                         const ShaderText& fragment);
+
 /// One compiled forward pass.
 class SurfaceProgram {
  public:
@@ -147,6 +162,8 @@ class SurfaceProgram {
 
  private:
   SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings, ForwardProgram program);
+  void draw_batches(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
+                    const SampleDraw& samples) const;
   void set_samples(const SampleDraw& samples) const;
   void set_directions(const SampleDraw& samples) const;
   void set_digits(const char* directions, const char* choices, std::span<const std::uint32_t> indices) const;
@@ -158,6 +175,7 @@ class SurfaceProgram {
   TextureUnits units_;
   std::string fragment_text_;
   gl::Program program_;
+  mutable bool has_drawn_ = false;
 };
 
 /// Whether textures of `baked` wait for a frame build.

@@ -109,7 +109,7 @@ class Drawing {
   [[nodiscard]] View view() const { return {.size = frame, .camera = scene_.camera}; }
 
   [[nodiscard]] Image with_frames(const MethodSpec& spec, auto draw) {
-    const BakedMethod baked = bake(find_method(spec.name), spec, scene_, effects_, no_progress);
+    const BakedMethod baked = bake(find_method(spec), spec, scene_, effects_, no_progress);
     const GpuMethod method(gpu_, baked);
     const FrameRenderer frames(context_->info(), gpu_, method, frame, {.footprint = filter_});
     Image picture = draw(frames);
@@ -189,8 +189,8 @@ class Run {
     const bool every_storage = settings_.wide || hard.group == "lobes";
     for (const MethodSpec& spec : every_storage ? with_storages() : methods_) {
       progress(fmt::format("{}, {}", hard.name, spec.text), 0.0);
-      if (hard.texels_only && !find_method(spec.name).info.resolves_texels) continue;
-      if (hard.asks && !has(find_method(spec.name).info.honours, *hard.asks)) continue;
+      if (hard.texels_only && !find_method(spec).info.resolves_texels) continue;
+      if (hard.asks && !has(find_method(spec).info.honours, *hard.asks)) continue;
       const std::vector<float> values = bench.densities(spec, directions);
       const std::size_t first = rows_.size();
       const auto add = [&](const char* figure, double value, double bound) {
@@ -279,7 +279,7 @@ class Run {
       std::vector<BakedMethod> baked;
       for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        baked.push_back(bake(find_method(spec.name), spec, scene, effects, no_progress));
+        baked.push_back(bake(find_method(spec), spec, scene, effects, no_progress));
       }
       double different = 0.0;
       for (std::size_t i = 0; i < baked[0].materials.size(); ++i)
@@ -327,11 +327,13 @@ class Run {
     for (const MethodSpec& spec : methods_) {
       out.push_back(spec);
       if (spec.options.contains("storage")) continue;
-      for (const OptionSpec& option : find_method(spec.name).info.options) {
+      for (const OptionSpec& option : find_method(spec).info.options) {
         if (option.name != "storage") continue;
         for (const std::string& choice : option.choices) {
           if (option.default_value == std::variant<double, std::string>(choice)) continue;
-          out.push_back(parse_methods(spec.text + ":storage=" + choice).front());
+          MethodSpec& other = out.emplace_back(spec);
+          other.text += ":storage=" + choice;
+          other.options["storage"] = choice;
         }
       }
     }

@@ -60,7 +60,7 @@ Directions NdfBench::over_the_disc(int size) const {
 }
 
 std::vector<float> NdfBench::densities(const MethodSpec& spec, const Directions& directions) {
-  const BakedMethod baked = bake(find_method(spec.name), spec, scene_, effects_, no_progress);
+  const BakedMethod baked = bake(find_method(spec), spec, scene_, effects_, no_progress);
   const MethodNdf ndf(context_->info(), gpu_, baked, scene_.materials.front(), {FootprintFilterKind::anisotropic, 8});
   std::vector<float> out = ndf.densities(footprint_, directions.grid.directions);
   context_->check("evaluating the NDF of " + spec.text);

@@ -42,7 +42,7 @@ struct Bake {
       : scene(of),
         effects(effects_on(derive_effects(scene))),
         spec(parse_methods(text).front()),
-        baked(bake(find_method(spec.name), spec, scene, effects, no_progress)) {
+        baked(bake(find_method(spec), spec, scene, effects, no_progress)) {
     if (waits_for_build(baked)) take_built_maps(shared_context(), scene, effects, baked);
   }
 
@@ -72,7 +72,7 @@ double difference_from_the_pipeline(const std::string& text, MapFiles maps) {
   const Bake bake(rough_square(is_slow ? 16 : 32), text);
   const fs::path folder = test::fresh_folder();
   write_bake(bake.files(), folder);
-  const Image own = TestRenderer(bake.scene, frame).frame(find_method(bake.spec.name), text, filter);
+  const Image own = TestRenderer(bake.scene, frame).frame(find_method(bake.spec), text, filter);
   EXPECT_GT(std::ranges::max(own.texels), 0.1F);
   return largest_difference(render_from_files(folder, bake.scene, frame, maps), own);
 }

@@ -23,7 +23,7 @@ Scene bumpy_square(float roughness = 0.5F) {
 
 EngineMaps maps_of(const Scene& scene, const std::string& text) {
   const MethodSpec spec = parse_methods(text).front();
-  const BakedMethod baked = bake(find_method(spec.name), spec, scene, effects_on(derive_effects(scene)), no_progress);
+  const BakedMethod baked = bake(find_method(spec), spec, scene, effects_on(derive_effects(scene)), no_progress);
   return engine_maps(baked, scene.materials.front());
 }
 

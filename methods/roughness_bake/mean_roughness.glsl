@@ -1,8 +1,0 @@
-// The base lobe of the mean roughness under a footprint, from the texture of bake_mean_roughness (roughness_bake.hpp).
-float baseLobe(Footprints f) {
-//? if roughness_variation
-  return lobeFromRoughness(fetch(baked_roughness, f.roughness).r);
-//? else
-  return lobe_cutoff.x;
-//? end
-}

@@ -51,7 +51,7 @@ function(footprint_install_development)
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/footprint" FILES_MATCHING PATTERN "*.hpp")
   install(DIRECTORY cmake DESTINATION "${parts}" COMPONENT development FILES_MATCHING PATTERN "*.cmake")
   install(FILES app/main.cpp DESTINATION "${parts}/app" COMPONENT development)
-  install(FILES methods/quantities.cpp.in methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
+  install(FILES methods/method_file.cpp.in methods/quantities.cpp.in methods/registry.cpp.in DESTINATION "${parts}/methods" COMPONENT development)
   install(DIRECTORY methods/template DESTINATION "${parts}/methods" COMPONENT development)
 
   # The configuration of an installed tree names its own scripts relative to itself.

@@ -4,7 +4,7 @@
 #                      [LIBRARIES ...] [BAKE_TESTS extra ...]):
 # a prefiltering method in the folder NAME, or in the current folder where that contains NAME.cpp, with NAME.cpp (which
 # defines `const Method& NAME_method()`), its *.glsl (whose texts are footprint::NAME_glsl) and a test program
-# of its *_test.cpp. Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
+# of its *_test.cpp. Without NAME.cpp the method is that of the head of NAME.glsl (docs/method-files.md). Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
 # names texts of other methods' folders that the module includes too, from the current folder on. STUDY names sources in
 # its folder study/, a library of their own that no picture needs; they define `std::span<const Quantity>
 # NAME_quantities()` (methods/quantities.hpp). BAKE_TESTS names tests of the precompute and of the study alone,
@@ -16,7 +16,12 @@ function(footprint_add_method name)
     set(folder "${CMAKE_CURRENT_SOURCE_DIR}")
   endif()
   list(TRANSFORM ARG_SOURCES PREPEND "${folder}/")
-  footprint_add_library(footprint_method_${name} SOURCES "${folder}/${name}.cpp" ${ARG_SOURCES}
+  set(source "${folder}/${name}.cpp")
+  if(NOT EXISTS "${source}")
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+    configure_file("${FOOTPRINT_CMAKE_DIR}/../methods/method_file.cpp.in" "${source}" @ONLY)
+  endif()
+  footprint_add_library(footprint_method_${name} SOURCES "${source}" ${ARG_SOURCES}
                         LIBRARIES footprint_bake ${ARG_LIBRARIES})
   list(TRANSFORM ARG_TEXTS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
   footprint_embed(footprint_method_${name} ${name}_glsl "${folder}/*.glsl" ${ARG_TEXTS})

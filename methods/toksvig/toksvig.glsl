@@ -1,3 +1,21 @@
+/*
+name = "toksvig"
+summary = "One lobe about the mean normal, widened according to the length of the mean normal."
+paper = "Toksvig 2005, Mipmapping Normal Maps, Journal of Graphics Tools 10(3)"
+reads = ["mean_normal", "lobe_variance"]
+leaves_out = ["anisotropic_lobe"]
+
+[[option]]
+name = "spread"
+default = 1
+range = [0, 4]
+meaning = "Factor on the spread (1 - |Na|) / |Na| before it is added to the lobe's slope variance per axis; 1 is Toksvig's. Engines' recipes for alpha^2 differ: alpha^2 += 2 spread / kappa."
+
+[[option]]
+name = "diffuse"
+choices = ["mean", "normalized"]
+meaning = "The diffuse term's normal: the mean normal, whose dot product is the mean of the facets' own while all face the light, or the renormalised one."
+*/
 // Toksvig 2005: the mean of unit normals has length |Na| = 1 - slope variance + .... A Blinn-Phong lobe of exponent s over
 // such normals is close to one of exponent s' = |Na| s / (|Na| + s (1 - |Na|)). As widths,
 //   1 / s' = 1 / s + (1 - |Na|) / |Na|,

@@ -5,6 +5,8 @@
 #include <array>
 #include <string_view>
 
+#include "renderer/core/error.hpp"
+
 namespace footprint {
 namespace {
 
@@ -137,8 +139,15 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
   flags.emplace("texel_lookups", std::ranges::any_of(prefiltered.textures,
                                                      [](const auto& t) { return t.filter == TextureFilter::nearest; }));
   for (const OptionSpec& option : options.specs()) {
-    for (const std::string& choice : option.choices)
-      flags.insert_or_assign(option.shader_name() + "_" + choice, options.word(option.name) == choice);
+    for (const std::string& choice : option.choices) {
+      const std::string flag = option.shader_name() + "_" + choice;
+      if (flags.contains(flag) && flag != "roughness_mean_concentration") {
+        throw Error(ErrorKind::usage, "option " + option.name,
+                    "its choice `" + choice + "` has the flag `" + flag + "`, which shaders have already",
+                    "name the option otherwise");
+      }
+      flags[flag] = options.word(option.name) == choice;
+    }
   }
   return flags;
 }

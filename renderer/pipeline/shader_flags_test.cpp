@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/error.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 
 namespace footprint {
@@ -41,6 +42,11 @@ TEST(ShaderFlags, KnowWhatIsOff) {
     EXPECT_FALSE(flags.at(name)) << name;
   }
   EXPECT_FALSE(flags.contains("storage_unorm8"));
+}
+
+TEST(ShaderFlags, RefuseAnOptionWithAFlagOfTheirOwn) {
+  const std::vector<OptionSpec> specs{word_option("filter", {"box", "tent"}, "")};
+  EXPECT_THROW((void)shader_flags({}, Options(specs, {}, "t")), Error);
 }
 
 TEST(ShaderFlags, FollowTextures) {

@@ -286,6 +286,9 @@ void check(const ExperimentArguments& arguments) {
                              .output = arguments.output,
                              .quiet = arguments.quiet});
   }
+  if (!arguments.run.settings().methods.empty())
+    throw Error(ErrorKind::usage, "--methods", fmt::format("only {} takes methods", hard_cases_name),
+                "leave it out: an experiment names its own");
   if (!arguments.timing_file.empty()) return take_times(arguments);
   CheckReporter reporter(arguments.reports);
   std::optional<Error> failed;

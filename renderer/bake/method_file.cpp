@@ -21,6 +21,7 @@
 #include "renderer/core/toml_table.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
 namespace {
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t largest_file = 256U << 10U;
 constexpr int largest_image = 8192;  // texels per side
 constexpr NumberRange any_number{-1e30, 1e30};
-constexpr std::string_view document = "see docs/method-files.md";
+constexpr std::string_view document = "docs/method-files.md";
 
 struct Job {
   const Material& material;
@@ -123,7 +124,7 @@ bool is_identifier(std::string_view text) {
 
 std::string required_word(const TomlTable& table, std::string_view key) {
   std::optional<std::string> word = table.word(key);
-  if (!word || word->empty()) throw table.error_at(key, "is missing", std::string(document));
+  if (!word || word->empty()) refuse_missing(table, key, document);
   return *std::move(word);
 }
 
@@ -145,10 +146,10 @@ OptionSpec read_option(const TomlTable& table) {
     throw table.error_at("choices", "has a word that cannot be a flag", "use lower-case letters, digits and `_`");
   }
   const auto range = table.numbers("range", 2, any_number);
-  if (!range) throw table.error_at("range", "is missing", "write range = [0, 4], or choices = [\"a\", \"b\"]");
+  if (!range) refuse_missing(table, "range", document);
   if ((*range)[0] > (*range)[1]) throw table.error_at("range", "is empty", "write the smaller number first");
   const auto value = table.number("default", {(*range)[0], (*range)[1]});
-  if (!value) throw table.error_at("default", "is missing", "give a number in the range");
+  if (!value) refuse_missing(table, "default", document);
   OptionSpec option = number_option(name, *value, (*range)[0], (*range)[1], meaning);
   option.integer = table.boolean("whole").value_or(false);
   return option;
@@ -206,7 +207,7 @@ PrefilteredTexture read_named_image(const TomlTable& table, const fs::path& fold
   const std::string name = identifier(table);
   const fs::path file = folder / required_word(table, "file");
   const auto filter = table.choice("filter", {"trilinear", "linear", "nearest"});
-  if (!filter) throw table.error_at("filter", "is missing", "write trilinear, linear or nearest");
+  if (!filter) refuse_missing(table, "filter", document);
   Image image = at_key(table, "file", [&] { return read_image(file, Transfer::linear, largest_image); });
   if (!std::ranges::all_of(image.texels, [](float value) { return std::isfinite(value); }))
     throw table.error_at("file", "has values that are not finite", "correct the image");
@@ -249,7 +250,7 @@ TomlTable head_of(const ShaderModule& module) {
   const std::size_t end = module.text.find("*/");
   if (!module.text.starts_with("/*") || end == std::string_view::npos)
     throw Error(ErrorKind::usage, fmt::format("{}:1", module.file), "does not start with a head `/* ... */`",
-                std::string(document));
+                fmt::format("see {}", document));
   return {fs::path(module.file),
           module.text.substr(2, end - 2),
           {"name", "summary", "paper", "reads", "leaves_out", "option", "image"}};

@@ -1,12 +1,14 @@
 // Errors, suggestions, options, content hashes, interrupts and the processor.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <functional>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "renderer/core/error.hpp"
@@ -33,6 +35,15 @@ std::string refusal(const std::function<void()>& action) {
 }
 
 // --- error.hpp
+
+TEST(TimeLimit, EndsTheProcessWithOneMessage) {
+  { const TimeLimit enough(std::chrono::seconds(60), "never"); }
+  const auto overrun = [] {
+    const TimeLimit limit(std::chrono::milliseconds(1), "a.glsl: takes too long");
+    std::this_thread::sleep_for(std::chrono::seconds(60));
+  };
+  EXPECT_EXIT(overrun(), ::testing::ExitedWithCode(3), "^footprint: a.glsl: takes too long\n$");
+}
 
 TEST(Error, ReadsPlaceMessageHint) {
   EXPECT_STREQ(Error(ErrorKind::usage, "a.toml", "wrong key", "remove it").what(), "a.toml: wrong key (remove it)");

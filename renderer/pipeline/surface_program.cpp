@@ -308,7 +308,7 @@ gl::Program method_program(const BakedMethod& baked, std::string_view name, std:
     const std::string_view file = baked.method->shader.file;
     throw Error(ErrorKind::usage,
                 line > 0 && line < first_shared_line ? fmt::format("{}:{}", file, line) : std::string(file),
-                error.message(), "docs/method-files.md has the functions that a module defines and may call");
+                error.message(), "docs/method-files.md has the inputs for `reads` and the functions of a module");
   }
 }
 

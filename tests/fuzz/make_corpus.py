@@ -158,8 +158,8 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    for reader in ("gltf", "glb", "obj", "merl", "picture", "environment", "scene", "cache_entry", "experiment", "part",
-                   "results"):
+    for reader in ("gltf", "glb", "obj", "merl", "picture", "environment", "scene", "method", "cache_entry", "experiment",
+                   "part", "results"):
         (folder / reader).mkdir(parents=True, exist_ok=True)
     (folder / "gltf" / "quad.gltf").write_bytes(gltf())
     (folder / "glb" / "quad.glb").write_bytes(glb())
@@ -170,6 +170,8 @@ def main():
     (folder / "merl" / "other.binary").write_bytes(struct.pack("<3i", 1, 1, 1) + struct.pack("<3d", 1, 2, 3))
     for scene in SOURCE.glob("scenes/*/scene.toml"):
         shutil.copy(scene, folder / "scene" / f"{scene.parent.name}.toml")
+    for method in ("toksvig", "naive_mip"):
+        shutil.copy(SOURCE / "methods" / method / f"{method}.glsl", folder / "method")
     with tempfile.TemporaryDirectory() as scratch:
         pictures(program, folder, pathlib.Path(scratch))
         runs(program, folder, pathlib.Path(scratch))

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/bake/bake_cache.hpp"
+#include "renderer/bake/method_file.hpp"
 #include "renderer/core/hash.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
@@ -54,6 +55,8 @@ Reader reader_named(const std::string& name) {
             }};
   if (name == "scene")
     return {"scene.toml", [](const Path& file, Bytes) { static_cast<void>(read_scene_settings(file, {})); }};
+  if (name == "method")
+    return {"input.glsl", [](const Path& file, Bytes) { static_cast<void>(read_method_file(file.string())); }};
   if (name == "cache_entry")
     return {"input.bytes", [](const Path&, Bytes bytes) { static_cast<void>(from_bytes(with_new_checksum(bytes))); }};
   std::fprintf(stderr, "%s is not a reader\n", name.c_str());

@@ -36,13 +36,14 @@ std::string refusal(const std::function<void()>& action) {
 
 // --- error.hpp
 
-TEST(TimeLimit, EndsTheProcessWithOneMessage) {
-  { const TimeLimit enough(std::chrono::seconds(60), "never"); }
+TEST(DriverWatch, EndsTheProcessWithOneMessage) {
+  { const DriverWatch enough(std::chrono::seconds(60), "b.glsl", "compile"); }
   const auto overrun = [] {
-    const TimeLimit limit(std::chrono::milliseconds(1), "a.glsl: takes too long");
+    const DriverWatch watch(std::chrono::milliseconds(20), "a.glsl", "compile");
     std::this_thread::sleep_for(std::chrono::seconds(60));
   };
-  EXPECT_EXIT(overrun(), ::testing::ExitedWithCode(3), "^footprint: a.glsl: takes too long\n$");
+  EXPECT_EXIT(overrun(), ::testing::ExitedWithCode(3),
+              "^footprint: a.glsl: takes more than 0.02 s to compile [^\n]*\n$");
 }
 
 TEST(Error, ReadsPlaceMessageHint) {

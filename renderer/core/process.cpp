@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
 
 namespace footprint {
 namespace {
@@ -50,12 +51,22 @@ std::string architecture() {
 
 }  // namespace
 
-TimeLimit::TimeLimit(std::chrono::milliseconds limit, std::string message)
-    : watch_([limit, message = std::move(message)](const std::stop_token& stop) {
+DriverWatch::DriverWatch(std::chrono::milliseconds limit, std::string place, std::string work)
+    : watch_([limit, place = std::move(place), work = std::move(work)](const std::stop_token& stop) {
+        constexpr std::chrono::milliseconds step(100);
+        const std::uint64_t least_memory = std::min(std::uint64_t{512} << 20U, available_memory() / 2);
+        const auto end = std::chrono::steady_clock::now() + limit;
         std::mutex mutex;
         std::unique_lock lock(mutex);
-        std::condition_variable_any ended;
-        if (!ended.wait_for(lock, stop, limit, [&] { return stop.stop_requested(); })) end_process(message);
+        std::condition_variable_any stopped;
+        const auto ends = [&] { return stop.stop_requested(); };
+        while (!stopped.wait_for(lock, stop, std::min(step, limit), ends)) {
+          if (std::chrono::steady_clock::now() >= end)
+            end_process(fmt::format("{}: takes more than {:g} s to {} (shorten its loops and its text)", place,
+                                    std::chrono::duration<double>(limit).count(), work));
+          if (available_memory() < least_memory)
+            end_process(fmt::format("{}: takes all memory to {} (shorten its text)", place, work));
+        }
       }) {}
 
 std::string host_name() {

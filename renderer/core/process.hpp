@@ -1,4 +1,4 @@
-// The machine that the process runs on, Ctrl-C, turned into an Error at the next safe point, and limits of time.
+// The machine that the process runs on, Ctrl-C, turned into an Error at the next safe point, and a watch over a driver.
 #pragma once
 
 #include <chrono>
@@ -30,12 +30,12 @@ void watch_interrupts();
 /// Throws Error (interrupted) after such a signal. It is cheap, so call it in every long loop.
 void throw_if_interrupted();
 
-/// Ends the process with exit code 3 and one message if it lives longer than its limit: for calls of a driver, which
-/// nothing can interrupt.
-class TimeLimit {
+/// Ends the process with exit code 3 and one message if work takes longer than a limit, or all memory: for calls of a
+/// driver, which nothing can interrupt.
+class DriverWatch {
  public:
-  /// message: one line, without a newline.
-  TimeLimit(std::chrono::milliseconds limit, std::string message);
+  /// place, work: "PLACE: takes more than 60 s to WORK".
+  DriverWatch(std::chrono::milliseconds limit, std::string place, std::string work);
 
  private:
   std::jthread watch_;

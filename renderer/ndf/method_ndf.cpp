@@ -144,7 +144,7 @@ std::vector<float> MethodNdf::densities(const FootprintRect& rect, std::span<con
     for (std::size_t i = 0; i < count; ++i) block[i] = glm::vec4(directions[out.size() + i], 0.0F);
     listed.upload(0, edge_, static_cast<int>(rows), GL_RGBA, GL_FLOAT, block.data());
     {
-      const std::optional<TimeLimit> limit = limit_of(gpu_.baked(), "draw its distribution");
+      const std::optional<DriverWatch> watch = watch_over(gpu_.baked(), "draw its distribution");
       draw(target, listed);
       target.read(0, 1, read);
     }

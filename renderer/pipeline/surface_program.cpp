@@ -289,21 +289,19 @@ void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, SamplerState state)
   if (part.block.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.block.name());
 }
 
-std::optional<TimeLimit> limit_of(const BakedMethod& baked, std::string_view what, int factor) {
+std::optional<DriverWatch> watch_over(const BakedMethod& baked, std::string_view work, int factor) {
   if (baked.method->file_content.empty()) return {};
-  const std::chrono::seconds limit = factor * file_method_limit;
-  return std::optional<TimeLimit>(std::in_place, limit,
-                                  fmt::format("{}: takes more than {} s to {} (shorten its loops and its text)",
-                                              baked.method->shader.file, limit.count(), what));
+  return std::optional<DriverWatch>(std::in_place, factor * file_method_limit, std::string(baked.method->shader.file),
+                                    std::string(work));
 }
 
 gl::Program method_program(const BakedMethod& baked, std::string_view name, std::string_view vertex,
                            const ShaderText& fragment) {
-  const std::optional<TimeLimit> limit = limit_of(baked, "compile");
+  const std::optional<DriverWatch> watch = watch_over(baked, "compile");
   try {
     return {fmt::format("{} ({})", name, fragment.lines()), vertex, fragment.text()};
   } catch (const Error& error) {
-    if (!limit) throw;
+    if (!watch) throw;
     const int line = gl::smallest_line_in(error.message());
     const std::string_view file = baked.method->shader.file;
     throw Error(ErrorKind::usage,
@@ -414,16 +412,16 @@ glm::vec3 SurfaceProgram::drawn_texels(const GpuMethod& method, const GpuBatch& 
 // The first draw of a method from a file is waited for, within its limit.
 void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
                           const SampleDraw& samples) const {
-  std::optional<TimeLimit> limit;
+  std::optional<DriverWatch> watch;
   if (!has_drawn_) {
     constexpr int most_lights = 100;  // a factor for an environment as directional lights
     std::array<GLint, 4> viewport{};
     gl::api().GetIntegerv(GL_VIEWPORT, viewport.data());
     const int factor = variant_.environment == EnvironmentUse::dense ? most_lights : 1;
-    limit = limit_of(method.baked(), "draw its first frame", factor * (1 + viewport[2] * viewport[3] / (1 << 20)));
+    watch = watch_over(method.baked(), "draw its first frame", factor * (1 + viewport[2] * viewport[3] / (1 << 20)));
   }
   draw_batches(scene, method, view, world_to_clip, samples);
-  if (limit) gl::api().Finish();
+  if (watch) gl::api().Finish();
   has_drawn_ = true;
 }
 

@@ -134,9 +134,9 @@ struct ForwardProgram {
 /// The longest that a method from a file may take to compile, and to draw its first 2^20 samples.
 inline constexpr std::chrono::seconds file_method_limit{60};
 
-/// Ends the program if a method from a file takes longer to do `what`. None for other methods.
+/// Ends the program if a method from a file takes too long for `work`, or all memory. None for other methods.
 /// factor: on file_method_limit.
-[[nodiscard]] std::optional<TimeLimit> limit_of(const BakedMethod& baked, std::string_view what, int factor = 1);
+[[nodiscard]] std::optional<DriverWatch> watch_over(const BakedMethod& baked, std::string_view work, int factor = 1);
 
 /// A program around a method's module. Throws Error: it does not compile (machine), with the compiler's log and the
 /// lines that it names; of a method from a file (usage), in the place FILE:LINE.

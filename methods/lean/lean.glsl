@@ -1,3 +1,10 @@
+/*
+name = "lean"
+summary = "One anisotropic lobe over the mean and the covariance of the footprint's slopes."
+paper = "Olano and Baker 2010, LEAN Mapping, I3D"
+reads = ["slope_moments"]
+leaves_out = ["multi_lobe"]
+*/
 // Olano and Baker 2010: recovers mean and covariance of the footprint's slopes from filtered moments, and evaluates one
 // lobe with them. The scalar variant, CLEAN, stores only the trace of the covariance.
 //? include footprint_slopes.glsl

@@ -46,10 +46,12 @@ Prefiltered lobe_variance(const Job& job) {
   return bake_lobe_variance(job.material, job.storage, job.effects, roughness_mean(job.options));
 }
 
+// The diffuse term reads the mean normal; of detail layers only the slopes are stored.
 Prefiltered slope_moments(const Job& job) {
   const bool mean_normal = has(job.effects, Effect::diffuse) && !has(job.effects, Effect::normal_layers);
+  const bool scalar = job.options.word("variant") == "clean";
   return bake_slopes(job.material, job.options, job.effects,
-                     {.variant = SlopeVariant::full, .mean_normal = mean_normal});
+                     {.variant = scalar ? SlopeVariant::scalar : SlopeVariant::full, .mean_normal = mean_normal});
 }
 
 Prefiltered mean_roughness(const Job& job) { return bake_mean_roughness(job.material, job.storage, job.effects); }
@@ -97,7 +99,8 @@ constexpr std::array<Input, 8> inputs{
       }},
      {"slope_moments", slope_moments,
       [] {
-        return std::vector{float_storage_option(), slope_roughness_option(), steepest_slope_option()};
+        return std::vector{float_storage_option(), slope_roughness_option(), steepest_slope_option(),
+                           slope_variant_option()};
       }},
      {"mean_roughness", mean_roughness, storage_alone},
      {"mean_lobe", mean_lobe, storage_alone},
@@ -270,10 +273,10 @@ Prefiltered baked(const Head& head, const Material& material, const Options& opt
   return out;
 }
 
-// footprint_slopes.glsl serves several methods, which differ in these.
+// footprint_slopes.glsl serves these methods and `leadr`, which differ in this texture.
 ShaderFlags flags_of(const Head& head) {
   const bool slopes = std::ranges::any_of(head.reads, [](const Read& r) { return r.input->name == "slope_moments"; });
-  return slopes ? ShaderFlags{{"with_mean_normal", true}, {"variant_clean", false}} : ShaderFlags{};
+  return slopes ? ShaderFlags{{"with_mean_normal", true}} : ShaderFlags{};
 }
 
 Method made(Head head, ShaderModule module) {

@@ -189,6 +189,12 @@ OptionSpec steepest_slope_option() {
                        "has the second moment of 10000 of slope 0.5.");
 }
 
+OptionSpec slope_variant_option() {
+  return word_option("variant", {"lean", "clean"},
+                     "The whole covariance of slopes, or its trace alone (CLEAN): a round lobe and three channels "
+                     "instead of five.");
+}
+
 Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                         const StoredSlopes& stored) {
   const Storage storage = parse_storage(options.word("storage"));

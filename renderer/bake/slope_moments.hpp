@@ -56,6 +56,9 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 /// `steepest=S`: limits slopes, because one texel at the horizon would outweigh thousands of others.
 [[nodiscard]] OptionSpec steepest_slope_option();
 
+/// `variant=lean|clean`: the full covariance, or its trace.
+[[nodiscard]] OptionSpec slope_variant_option();
+
 /// Stores the full covariance or, as CLEAN does, only its trace.
 enum class SlopeVariant { full, scalar };
 

@@ -40,7 +40,8 @@ class MethodFileTest(WholeRunTest):
 
     def test_a_copy_of_a_method_gives_its_picture_bit_for_bit(self):
         for method, options, scene in (("toksvig", "", "bumps"), ("toksvig", ":storage=fp16:spread=0.5", "carved_disk"),
-                                       ("naive_mip", ":averages=lobe", "carved_disk"), ("fixed_brdf", "", "bumps")):
+                                       ("naive_mip", ":averages=lobe", "carved_disk"), ("fixed_brdf", "", "bumps"),
+                                       ("lean", ":variant=clean", "carved_disk")):
             for filter_name in ("trilinear", "anisotropic:4", "shaded:2"):
                 arguments = (scene, *SMALL, "--footprint", filter_name)
                 own = self.render("own", *arguments, "--method", method + options)
@@ -48,6 +49,17 @@ class MethodFileTest(WholeRunTest):
                 self.assertEqual(largest_difference(own, copy), 0.0, f"{method}{options} {filter_name}")
         other = self.render("other", *arguments, "--method", "toksvig")
         self.assertGreater(largest_difference(own, other), 0.0)
+
+    def test_the_tutorial_is_true(self):
+        page = (SOURCE / "docs" / "method-files.md").read_text(encoding="utf-8")
+        text = page.split("```glsl\n", 1)[1].split("```", 1)[0]
+        self.assertLessEqual(text.count("\n"), 20)
+        mine = self.render("mine", "bumps", *SMALL, "--method", self.file(text))
+        same = self.render("same", "bumps", *SMALL, "--method", "toksvig:diffuse=normalized")
+        self.assertEqual(largest_difference(mine, same), 0.0)
+        half = self.render("half", "bumps", *SMALL, "--method", "./mine.glsl:strength=0.5")
+        self.assertGreater(largest_difference(half, same), 0.0)
+        self.assertIn("0 to 4", self.refused("render", "bumps", "--method", "./mine.glsl:strength=5", "-o", "a.exr"))
 
     def test_compare_measures_it_beside_others(self):
         copy = self.copy_of("toksvig")
@@ -88,6 +100,9 @@ class MethodFileTest(WholeRunTest):
         methods = json.loads((self.folder / "ndf" / "ndf.json").read_text(encoding="utf-8"))["methods"]
         self.assertEqual(methods[copy]["l2"], methods["toksvig"]["l2"])
         self.assertIn("mean_normal", run("explain", "bumps", "--method", copy))
+        run("cost", "bumps", *SMALL, "--methods", f"toksvig,{copy}", "--gpu", "Steam Deck", "-q", "-o", "cost")
+        own, same = json.loads((self.folder / "cost" / "cost.json").read_text(encoding="utf-8"))["methods"]
+        self.assertEqual(same["gpus"][0]["cost_ns"], own["gpus"][0]["cost_ns"])
         run("animate", "bumps", *SMALL, "--methods", copy, "--frames", 2, "--quiet", "-o", "animation")
 
     def test_experiments_name_it_relative_to_their_file(self):
@@ -100,8 +115,15 @@ class MethodFileTest(WholeRunTest):
             '[threshold]\n"abs(error(toksvig) - error(mine.glsl))" = 0\n"error(toksvig) - error(mine.glsl:spread=0)" = 0\n',
             encoding="utf-8",
         )
-        text = run("check", folder / "study.toml", "--quiet", "-o", "checked")
-        self.assertIn("2", text)
+        run("check", folder / "study.toml", "--quiet", "-o", "checked")
+        kept = {part.name for part in (self.folder / "checked" / "kept").iterdir()}
+        self.assertEqual(len(kept), 1)
+        run("check", folder / "study.toml", "--quiet", "-o", "checked")
+        self.assertEqual({part.name for part in (self.folder / "checked" / "kept").iterdir()}, kept)
+        with open(folder / "mine.glsl", "a", encoding="utf-8") as file:
+            file.write("// another file: its results are measured again\n")
+        run("check", folder / "study.toml", "--quiet", "-o", "checked")
+        self.assertGreater({part.name for part in (self.folder / "checked" / "kept").iterdir()}, kept)
 
     def test_hostile_files_end_in_one_error(self):
         def of(text, *words):

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
@@ -13,7 +16,6 @@
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/stage.hpp"
-#include "methods/registry.hpp"
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/core/error.hpp"
@@ -36,6 +38,7 @@ constexpr const char* bake_examples =
     "  footprint bake model.gltf --method toksvig -o maps\n"
     "  footprint bake model.gltf --method lean:storage=fp16 --footprint trilinear -o maps\n"
     "  footprint bake model.gltf --method roughness_bake:preset=filament --gltf --gltf-level 2 -o maps\n"
+    "  footprint bake model.gltf --method lean --language hlsl,msl -o maps\n"
     "  footprint bake bumps_slopes.exr --method lean -o maps";
 
 constexpr int coarsest_level = 16;
@@ -45,24 +48,29 @@ struct BakeArguments {
 
   RunOptions run;
   std::string output;
+  std::string languages;
   bool gltf = false;
   int gltf_level = 0;
   bool quiet = false;
 };
+
+// Other than GLSL, which every bake has; each once.
+std::vector<ShaderLanguage> languages_of(const std::string& list) {
+  std::vector<ShaderLanguage> languages;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    const ShaderLanguage language = word_value(shader_languages, word, "language", "--language");
+    const bool is_new = std::ranges::find(languages, language) == languages.end();
+    if (language != ShaderLanguage::glsl && is_new) languages.push_back(language);
+  }
+  return languages;
+}
 
 // Requires a new or empty folder, because maps of another bake would be mistaken for this one's.
 void require_room(const std::string& output) {
   std::error_code ignored;  // OutputFolder refuses a path that is not a folder
   if (!std::filesystem::is_directory(output, ignored) || std::filesystem::is_empty(output, ignored)) return;
   throw Error(ErrorKind::usage, output, "is not empty", "give a new or an empty folder");
-}
-
-BakedMethod bake_settings(const RunSettings& run, const Scene& scene, const EffectSet& effects,
-                          const Progress& progress) {
-  const MethodSpec& spec = run.methods.front();
-  const std::optional<DiskCache> files = cache_of(run);
-  const std::optional<BakeCache> cache = files ? std::optional<BakeCache>(*files) : std::nullopt;
-  return bake(find_method(spec), spec, scene, effects, progress, cache ? &*cache : nullptr);
 }
 
 void require_gltf(const std::string& scene) {
@@ -147,6 +155,7 @@ std::string summary(const BakeToFiles& bake) {
 
 void run_bake(const BakeArguments& arguments) {
   const RunSettings run = arguments.run.settings();
+  const std::vector<ShaderLanguage> languages = languages_of(arguments.languages);
   require_room(arguments.output);
   if (arguments.gltf) require_gltf(run.scene);
   ProgressDisplay display(progress_style(arguments.quiet));
@@ -157,7 +166,7 @@ void run_bake(const BakeArguments& arguments) {
         slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library, run.overrides);
     require_one_lookup(footprint_filter_of(run, scene), "bake");
     const EffectSet effects = effects_on(derive_effects(scene));
-    BakedMethod baked = bake_settings(run, scene, effects, display.callback());
+    BakedMethod baked = bake_first(run, scene, effects, display.callback());
     if (slopes) take_slopes(*slopes, baked);
     if (waits_for_build(baked)) take_built_maps(gl::Context(run.backend.context), scene, effects, baked);
     const BakeToFiles bake{.scene = scene,
@@ -165,7 +174,8 @@ void run_bake(const BakeArguments& arguments) {
                            .effects = effects,
                            .footprint = footprint_filter_of(run, scene),
                            .version = FOOTPRINT_VERSION,
-                           .engine = engine_maps_of(scene, baked)};
+                           .engine = engine_maps_of(scene, baked),
+                           .languages = languages};
     write_bake(bake, folder.path());
     std::string copy;
     if (arguments.gltf)
@@ -187,6 +197,10 @@ void add_bake_command(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "Folder for manifest.json, METHOD.glsl, maps/")
       ->type_name("DIR")
       ->required();
+  command
+      ->add_option("--language", arguments->languages,
+                   "Also write METHOD.LANGUAGE, a shader with an entry point: essl, hlsl, msl, spirv")
+      ->type_name("LIST");
   auto* gltf = command->add_flag("--gltf", arguments->gltf,
                                  "Also write a copy of the model, with the roughness maps that engines import");
   command->add_option("--gltf-level", arguments->gltf_level, "Mip level of the copy's maps; 0 is the finest")

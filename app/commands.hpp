@@ -21,6 +21,7 @@ void add_explain_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_ndf_command(CLI::App& app);
 void add_score_command(CLI::App& app);
+void add_shader_command(CLI::App& app);
 void add_statistics_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);

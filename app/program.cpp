@@ -53,7 +53,7 @@ void add_subcommands(CLI::App& app) {
   add("Compare", {add_compare_command, add_recommend_command, add_score_command, add_animate_command});
   add("Look inside", {add_explain_command, add_cost_command, add_ndf_command, add_statistics_command,
                       add_render_command, add_edit_command});
-  add("Export", {add_bake_command, add_surface_command});
+  add("Export", {add_bake_command, add_shader_command, add_surface_command});
   add("Reproduce and guard", {add_run_command, add_check_command, add_merge_command});
   add("This program", {add_list_command, add_info_command, add_completions_command});
   add_compile_command(app);

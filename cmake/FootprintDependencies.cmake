@@ -15,6 +15,7 @@ find_package(TBB CONFIG REQUIRED)
 find_package(Eigen3 CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
 find_package(glslang CONFIG REQUIRED)
+find_package(spirv_cross_c_shared CONFIG REQUIRED)
 find_package(VulkanHeaders CONFIG REQUIRED)
 # Debian's Highway brings no CMake files.
 find_path(FOOTPRINT_HIGHWAY_HEADERS hwy/highway.h REQUIRED)

@@ -41,7 +41,7 @@ endfunction()
 # footprint_development_packages(VARIABLE): the Debian packages of headers that scripts/packages.txt builds with, and what
 # their CMake files insist on, commas between.
 function(footprint_development_packages variable)
-  file(STRINGS scripts/packages.txt lines REGEX "^((lib|nlohmann)[a-z0-9-]+-dev|openimageio-tools) ")
+  file(STRINGS scripts/packages.txt lines REGEX "^((lib|nlohmann|glslang)[a-z0-9-]*-dev|(openimageio|glslang)-tools) ")
   list(TRANSFORM lines REPLACE " .*" "")
   list(JOIN lines ", " packages)
   set(${variable} "${packages}" PARENT_SCOPE)

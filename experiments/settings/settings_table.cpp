@@ -17,12 +17,12 @@ const Commands of_a_scene{"compare", "recommend", "render", "animate", "edit", "
 const Commands of_a_picture{"compare", "recommend", "render", "animate", "edit", "explain", "cost"};
 const Commands that_compare{"compare", "recommend"};
 const Commands with_a_reference{"compare", "recommend", "render", "animate", "score"};
-const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf", "cost"};
+const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", "explain", "ndf", "cost", "shader"};
 const Commands with_a_history{"compare", "render", "animate"};
 const Commands that_draw{"compare", "recommend", "render", "animate", "edit", "explain",
                          "ndf",     "run",       "check",  "score",   "cost"};
-const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake",
-                              "explain", "ndf",       "run",    "check",   "cost"};
+const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake",  "explain",
+                              "ndf",     "run",       "check",  "cost",    "shader"};
 
 constexpr double largest_turn = 36000;  // degrees: a hundred turns
 constexpr int any_count = std::numeric_limits<int>::max();
@@ -39,6 +39,12 @@ AnimationPath& animation_path(Run& run) { return run.path.kind ? *run.path.kind 
 std::vector<std::string>& gpus_of(Run& run) { return run.gpus; }
 int& repeats(Run& run) { return run.timing.repeats; }
 
+SettingType method_argument() {
+  SettingType type = one_method(all_of);
+  type.word = "METHOD";
+  return type;
+}
+
 std::vector<Setting> scene_settings() {
   return {
       {.option = "scene",
@@ -46,6 +52,11 @@ std::vector<Setting> scene_settings() {
        .type = any_text(scene, "SCENE"),
        .help = "a scene of `footprint list scenes`, a path to a scene.toml, or a model (.gltf, .glb, .obj)",
        .required = true},
+      {.option = "--scene",
+       .commands = {"shader"},
+       .type = any_text(scene, "SCENE"),
+       .help = "SCENE whose effects the shader simulates",
+       .otherwise = "a GGX material with a normal map and a metallic-roughness map"},
       {.table = "experiment",
        .key = "scene",
        .type = any_text(scene, "SCENE"),
@@ -120,6 +131,11 @@ std::vector<Setting> scene_settings() {
        .commands = {"bake"},
        .type = one_method(all_of),
        .help = "method whose maps are written",
+       .required = true},
+      {.option = "method",
+       .commands = {"shader"},
+       .type = method_argument(),
+       .help = "method whose shader is written",
        .required = true},
       {.option = "--methods",
        .commands = {"ndf"},

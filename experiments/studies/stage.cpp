@@ -103,6 +103,14 @@ std::optional<DiskCache> cache_of(const RunSettings& settings) {
   return DiskCache(*settings.cache);
 }
 
+BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const EffectSet& effects,
+                       const Progress& progress) {
+  const MethodSpec& spec = settings.methods.front();
+  const std::optional<DiskCache> files = cache_of(settings);
+  const std::optional<BakeCache> cache = files ? std::optional<BakeCache>(*files) : std::nullopt;
+  return bake(find_method(spec), spec, scene, effects, progress, cache ? &*cache : nullptr);
+}
+
 void require_pictures(const glm::ivec2& size, int count) {
   const std::uint64_t bytes = frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
                                           pixel_bytes * static_cast<std::uint64_t>(count));

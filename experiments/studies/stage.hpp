@@ -55,6 +55,10 @@ enum class Unit {
 /// The cache of slow work; none if the settings have no folder for it.
 [[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
 
+/// The maps of the settings' first method, by that cache.
+[[nodiscard]] BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const EffectSet& effects,
+                                     const Progress& progress);
+
 /// Errors (machine): so many images (RGBA, 32-bit floats) of this size exceed memory.
 void require_pictures(const glm::ivec2& size, int count);
 

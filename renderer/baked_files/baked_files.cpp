@@ -1,4 +1,4 @@
-// Names the files, writes each texture in every format that can store it, and the module with its contract.
+// Names the files, and writes each texture in every format that can store it.
 #include "renderer/baked_files/baked_files.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,6 @@
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/mipmap.hpp"
-#include "renderer/pipeline/shader_source.hpp"
 
 namespace footprint {
 namespace {
@@ -102,43 +101,6 @@ bool holds_slopes_alone(const BakedMethod& baked, std::size_t material) {
   return holds_slope_moments(baked.materials[material]) && !joined;
 }
 
-ShaderVariant variant_of(const BakeToFiles& bake) {
-  std::size_t most_lobes = 1;
-  for (const Material& material : bake.scene.materials) most_lobes = std::max(most_lobes, material.lobes.size());
-  return {.effects = bake.effects & bake.baked.method->info.honours,
-          .brdf = bake.scene.materials.front().brdf,
-          .footprint = bake.footprint,
-          .horizon_open = bake.scene.horizon == Horizon::open,
-          .screen_derivatives = bake.baked.method->info.screen_derivatives,
-          .facet_lobes = most_lobes};
-}
-
-constexpr const char* screen_contract =
-    R"(//
-// This method looks at the next pixels. Between the first two lines, and instead of the last:
-//
-//   lookAround(at, eye, frame, world_to_camera, f);  // in every pixel of a quad, before any is discarded
-//   vec3 f_cos = reflectedTowards(e, s, wi, wo, vec4(lamp, 1.0));   // vec4(direction, 0.0) of light without a place
-)";
-
-std::string contract(const BakeToFiles& bake) {
-  return fmt::format(
-      R"(// {} as `footprint bake` wrote it (Footprint {}), footprint filter {}.
-//
-// Put it behind `#version 450 core` into a fragment shader. Bind the textures by the names of the samplers below, with
-// the filter and wrap modes, and set the uniforms to the values, that manifest.json gives for each material. Then:
-//
-//   Footprints f = footprintsAt(uv);                 // or member by member, where maps have coordinates of their own
-//   Effective e = effective(f);                      // once per pixel
-//   Surface s = Surface(albedo, f0);                 // diffuse albedo, reflectance at normal incidence
-//   vec3 f_cos = reflectedTowards(e, s, wi, wo);     // for each light; f * cos
-//
-// wi and wo are unit vectors in the tangent frame (x tangent, y bitangent, z normal), towards the light and the viewer.
-{})",
-      bake.baked.spec.text, bake.version, footprint_filter_text(bake.footprint),
-      bake.baked.method->info.screen_derivatives ? screen_contract : "");
-}
-
 }  // namespace
 
 EngineMaps engine_maps(const BakedMethod& baked, const Material& material) {
@@ -179,7 +141,9 @@ BakeListing list_bake(const BakeToFiles& bake) {
   std::vector<std::string> names;
   for (const Material& material : bake.scene.materials) names.push_back(material.name);
   const std::vector<std::string> folders = distinct_stems(names);
-  BakeListing listing{.module = bake.baked.method->info.name + ".glsl", .materials = {}};
+  const std::string& name = bake.baked.method->info.name;
+  BakeListing listing{.module = name + ".glsl", .shaders = {}, .materials = {}};
+  for (const ShaderLanguage language : bake.languages) listing.shaders.push_back(name + "." + file_extension(language));
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const std::string folder = "maps/" + folders[i];
     MaterialFiles& files = listing.materials.emplace_back();
@@ -207,11 +171,6 @@ void require_files(const BakeToFiles& bake) {
               "bakes nothing: normals and roughness do not vary on any material", "give a model with a normal map");
 }
 
-std::string module_text(const BakeToFiles& bake) {
-  const BakedMethod& baked = bake.baked;
-  return contract(bake) + bare_module(variant_of(bake), baked.method->shader, baked.options, baked.materials.front());
-}
-
 void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder) {
   require_files(bake);
   const BakeListing listing = list_bake(bake);
@@ -226,6 +185,8 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder) {
     write_exr_chain(folder / *files.bumpslopes, *bumpslopes_of(prefiltered), halves ? ExrTexel::half : ExrTexel::full);
   }
   write_file_atomically(folder / listing.module, module_text(bake));
+  for (std::size_t i = 0; i < listing.shaders.size(); ++i)
+    write_file_atomically(folder / listing.shaders[i], shader_text(bake, bake.languages[i]));
   write_file_atomically(folder / "manifest.json", manifest_json(bake, listing));
 }
 

@@ -8,6 +8,7 @@
 
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/baked_files/gltf_copy.hpp"
+#include "renderer/languages/translation.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -32,11 +33,12 @@ struct EngineMaps {
 /// The content of an export.
 struct BakeToFiles {
   const Scene& scene;
-  const BakedMethod& baked;          ///< of `scene`, for `effects`
-  EffectSet effects;                 ///< of the scene
-  FootprintFilter footprint;         ///< of the module's lookups
-  std::string version;               ///< of the program, for the manifest
-  std::vector<EngineMaps> engine{};  ///< per material, or empty
+  const BakedMethod& baked;                 ///< of `scene`, for `effects`
+  EffectSet effects;                        ///< of the scene
+  FootprintFilter footprint;                ///< of the module's lookups
+  std::string version;                      ///< of the program, for the manifest
+  std::vector<EngineMaps> engine{};         ///< per material, or empty
+  std::vector<ShaderLanguage> languages{};  ///< other than glsl, in which the module is written too
 };
 
 /// The files of one texture, as paths from the output folder.
@@ -57,6 +59,7 @@ struct MaterialFiles {
 /// All files, as paths from the output folder.
 struct BakeListing {
   std::string module;                    ///< the GLSL
+  std::vector<std::string> shaders;      ///< in the order of BakeToFiles::languages
   std::vector<MaterialFiles> materials;  ///< in the order of the scene
 };
 
@@ -73,6 +76,14 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder);
 
 /// The GLSL that reads the maps, with documentation.
 [[nodiscard]] std::string module_text(const BakeToFiles& bake);
+
+/// The same in a language: GLSL as module_text; else a fragment shader with the entry point of bare_main.glsl, its
+/// inputs listed in front of it; SPIR-V as bytes, which are not listed. Throws Error (machine): glslang or SPIRV-Cross
+/// refuses the module.
+[[nodiscard]] std::string shader_text(const BakeToFiles& bake, ShaderLanguage language);
+
+/// The inputs of that shader in a language other than GLSL, one per line, each behind `prefix`.
+[[nodiscard]] std::string inputs_text(const BakeToFiles& bake, ShaderLanguage language, const std::string& prefix);
 
 /// The manifest, "schema": "footprint-bake/1", pretty-printed in a fixed order of keys. It is independent of date and
 /// time.

@@ -179,6 +179,7 @@ std::string manifest_json(const BakeToFiles& bake, const BakeListing& listing) {
                       {"effects", effect_names(bake.effects & honours)},
                       {"left_out", effect_names(bake.effects & ~honours)},
                       {"module", listing.module},
+                      {"shaders", listing.shaders},
                       {"bytes", bake.baked.bytes},
                       {"materials", std::move(materials)}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -10,8 +10,8 @@
 
 #include "renderer/core/progress.hpp"
 #include "renderer/gpu_cost/chips.hpp"
-#include "renderer/gpu_cost/spirv.hpp"
 #include "renderer/gpu_cost/vulkan_compiler.hpp"
+#include "renderer/languages/spirv.hpp"
 
 namespace footprint {
 

@@ -14,8 +14,8 @@
 #include "renderer/gpu_cost/chips.hpp"
 #include "renderer/gpu_cost/estimate.hpp"
 #include "renderer/gpu_cost/shader_work.hpp"
-#include "renderer/gpu_cost/spirv.hpp"
 #include "renderer/gpu_cost/vulkan_compiler.hpp"
+#include "renderer/languages/spirv.hpp"
 
 namespace footprint {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "renderer/gpu_cost/spirv.hpp"
+#include "renderer/languages/spirv.hpp"
 
 namespace footprint {
 

@@ -149,6 +149,19 @@ void add_method_pass(ShaderText& text, const ShaderVariant& variant, const Shade
   text.include(pass);
 }
 
+// A method's module without bindings, with the functions for its callers.
+ShaderText bare_text(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
+                     const Prefiltered& prefiltered) {
+  const ShaderFlags flags = shader_flags(variant, options, prefiltered);
+  ShaderText text(flags, module);
+  text.add(plain_declarations(prefiltered) + footprint_constants(variant.footprint) + number_options(options));
+  if (flags.at("multi_lobe")) text.add(fmt::format("const int most_facet_lobes = {};\n", variant.facet_lobes));
+  text.include("bare_material.glsl");
+  add_shared_functions(text, flags, shade_calls(variant));
+  text.include("bare_module.glsl");
+  return text;
+}
+
 constexpr std::array<GLenum, 5> sampler_types{GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_ARRAY_SHADOW,
                                               GL_SAMPLER_3D, GL_SAMPLER_CUBE};
 
@@ -189,14 +202,14 @@ ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits&
 
 std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
                         const Prefiltered& prefiltered) {
-  const ShaderFlags flags = shader_flags(variant, options, prefiltered);
-  ShaderText text(flags, module);
-  text.add(plain_declarations(prefiltered) + footprint_constants(variant.footprint) + number_options(options));
-  if (flags.at("multi_lobe")) text.add(fmt::format("const int most_facet_lobes = {};\n", variant.facet_lobes));
-  text.include("bare_material.glsl");
-  add_shared_functions(text, flags, shade_calls(variant));
-  text.include("bare_module.glsl");
-  return without_line_numbers(text.text());
+  return without_line_numbers(bare_text(variant, module, options, prefiltered).text());
+}
+
+std::string bare_fragment(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
+                          const Prefiltered& prefiltered) {
+  ShaderText text = bare_text(variant, module, options, prefiltered);
+  text.include("bare_main.glsl");
+  return std::string(version_line) + without_line_numbers(text.text());
 }
 
 ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, const Options& options,

@@ -86,6 +86,10 @@ struct ForwardShaders {
 [[nodiscard]] std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
                                       const Prefiltered& prefiltered);
 
+/// The same behind a version line, with the entry point of bare_main.glsl: a whole fragment shader.
+[[nodiscard]] std::string bare_fragment(const ShaderVariant& variant, const ShaderModule& module,
+                                        const Options& options, const Prefiltered& prefiltered);
+
 /// A pass that evaluates the module's `ndf` at listed directions for one footprint. Its vertex stage is
 /// screen_vertex_shader. Arguments as in forward_shaders.
 [[nodiscard]] ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, const Options& options,

@@ -14,6 +14,57 @@ const std::vector<Case> good_bakes{
      .output_has = {"v_grooves", "mean_normal", "manifest: "},
      .leaves = {"maps/manifest.json", "maps/fixed_brdf.glsl", "maps/maps/v_grooves/mean_normal.exr",
                 "maps/maps/v_grooves/mean_normal.ktx2"}},
+    {.name = "BakeInOtherLanguages",
+     .arguments = {"bake", "v_grooves", "--method", "fixed_brdf", "--language", "glsl,hlsl,msl,hlsl", "-o", "{}/maps"},
+     .output_has = {"manifest: "},
+     .leaves = {"maps/fixed_brdf.glsl", "maps/fixed_brdf.hlsl", "maps/fixed_brdf.msl"}},
+    {.name = "HelpOfShader",
+     .arguments = {"shader", "--help"},
+     .output_has = {"METHOD", "--language WORD", "--scene", "Examples:"}},
+    {.name = "ShaderOfTheCommonMaterial",
+     .arguments = {"shader", "lean:storage=fp16", "--language", "essl"},
+     .output_has = {"#version 310 es", "texture 1    sampler2D slope_rest", "set it to 8"}},
+    {.name = "ShaderOfAScene",
+     .arguments = {"shader", "toksvig", "--language", "hlsl", "--scene", "v_grooves", "--footprint", "trilinear", "-o",
+                   "{}/toksvig.hlsl"},
+     .output_has = {"toksvig.hlsl"},
+     .leaves = {"toksvig.hlsl"}},
+    {.name = "ShaderAsSpirv",
+     .arguments = {"shader", "xu_vmf", "--language", "spirv", "-o", "{}/xu_vmf.spv"},
+     .output_has = {"texture n has binding n + 1", "sampler2DArray", "xu_vmf.spv"},
+     .leaves = {"xu_vmf.spv"}},
+};
+
+const std::vector<Case> wrong_shaders{
+    {.name = "ShaderOfNoMethod", .arguments = {"shader"}, .exit_code = 2, .errors_have = {"method"}},
+    {.name = "ShaderOfAWrongMethod",
+     .arguments = {"shader", "leen"},
+     .exit_code = 2,
+     .errors_have = {"`leen`", "did you mean `lean`?"}},
+    {.name = "ShaderInAWrongLanguage",
+     .arguments = {"shader", "lean", "--language", "hslsl"},
+     .exit_code = 2,
+     .errors_have = {"--language", "`hslsl`", "did you mean `hlsl`?"}},
+    {.name = "ShaderInWgsl",
+     .arguments = {"shader", "lean", "--language", "wgsl"},
+     .exit_code = 2,
+     .errors_have = {"--language", "`wgsl`", "known: glsl, essl, hlsl, msl, spirv"}},
+    {.name = "BinaryShaderToTheTerminal",
+     .arguments = {"shader", "lean", "--language", "spirv"},
+     .exit_code = 2,
+     .errors_have = {"--language spirv", "is binary", "-o"}},
+    {.name = "ShaderOfAMissingScene",
+     .arguments = {"shader", "lean", "--scene", "{}/missing.gltf"},
+     .exit_code = 2,
+     .errors_have = {"missing.gltf"}},
+    {.name = "ShaderIntoAClosedFolder",
+     .arguments = {"shader", "lean", "-o", "/proc/lean.glsl"},
+     .exit_code = 3,
+     .errors_have = {"/proc"}},
+    {.name = "BakeInAWrongLanguage",
+     .arguments = {"bake", "v_grooves", "--method", "toksvig", "--language", "hlsl,cg", "-o", "{}/maps"},
+     .exit_code = 2,
+     .errors_have = {"--language", "`cg`"}},
 };
 
 const std::vector<Case> bakes_for_engines{
@@ -88,6 +139,7 @@ std::vector<Case> wrong_bakes() {
 
 INSTANTIATE_TEST_SUITE_P(GoodBake, CommandLine, ::testing::ValuesIn(good_bakes), case_name);
 INSTANTIATE_TEST_SUITE_P(BakeForEngines, CommandLine, ::testing::ValuesIn(bakes_for_engines), case_name);
+INSTANTIATE_TEST_SUITE_P(WrongShader, CommandLine, ::testing::ValuesIn(wrong_shaders), case_name);
 INSTANTIATE_TEST_SUITE_P(WrongBake, CommandLine, ::testing::ValuesIn(wrong_bakes()), case_name);
 
 }  // namespace

@@ -26,17 +26,6 @@ namespace fs = std::filesystem;
 constexpr glm::ivec2 frame{32, 32};
 constexpr FootprintFilter filter{FootprintFilterKind::anisotropic, 8};
 
-// Bumps and a roughness that varies, seen obliquely: several levels and several probes are read.
-Scene rough_square(int texels = 32) {
-  Scene scene = receding_grooves();
-  Material& material = scene.materials.front();
-  material.normal_map->image = std::make_shared<const Image>(random_normals(texels, texels, 0.5F, 3));
-  Image rough(16, 16, 2, 0.0F);
-  for (std::size_t i = 0; i < rough.texel_count(); ++i) rough.texels[2 * i] = 0.3F + 0.02F * static_cast<float>(i % 16);
-  material.metallic_roughness_map = TextureMap{"roughness", std::make_shared<const Image>(rough), {}};
-  return scene;
-}
-
 struct Bake {
   Bake(const Scene& of, const std::string& text)
       : scene(of),

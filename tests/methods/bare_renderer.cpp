@@ -14,6 +14,7 @@
 #include "renderer/pipeline/view.hpp"
 #include "tests/support/ktx2_reader.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
 namespace {
@@ -21,16 +22,16 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr const char* vertex_text = R"(#version 450 core
+constexpr const char* vertex_text = R"(
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec2 in_uv;
 uniform mat4 world_to_clip;
-out vec3 at;
-out vec3 up;
-out vec4 along;
-out vec2 uv;
+layout(location = 0) out vec3 at;
+layout(location = 1) out vec3 up;
+layout(location = 2) out vec4 along;
+layout(location = 3) out vec2 uv;
 void main() {
   at = in_position;
   up = in_normal;
@@ -41,10 +42,10 @@ void main() {
 )";
 
 constexpr const char* main_text = R"(
-in vec3 at;
-in vec3 up;
-in vec4 along;
-in vec2 uv;
+layout(location = 0) in vec3 at;
+layout(location = 1) in vec3 up;
+layout(location = 2) in vec4 along;
+layout(location = 3) in vec2 uv;
 uniform vec3 eye;
 uniform vec3 lamp;
 uniform vec3 candela;
@@ -140,14 +141,38 @@ gl::Sampler sampler_of(const Json& texture) {
                                         : gl::trilinear_sampler(wrap_of(wrap[0]), wrap_of(wrap[1]));
 }
 
-void set_uniform(const gl::Program& program, const std::string& name, const Json& value) {
+// Translations have the uniforms in a structure.
+GLint place_of(const gl::Program& program, const std::string& name) {
   const GLint place = program.uniform(name.c_str());
+  return place < 0 ? program.uniform(("uniforms." + name).c_str()) : place;
+}
+
+void set_uniform(const gl::Program& program, const std::string& name, const Json& value) {
+  const GLint place = place_of(program, name);
   if (place < 0) return;  // the module has no use for it
+  if (value.is_number_integer()) return gl::api().ProgramUniform1i(program.name(), place, value.get<int>());
   if (!value.is_array()) return gl::api().ProgramUniform1f(program.name(), place, value.get<float>());
   const auto v = value.get<std::vector<float>>();
   if (v.size() == 4) gl::api().ProgramUniform4f(program.name(), place, v[0], v[1], v[2], v[3]);
   if (v.size() == 3) gl::api().ProgramUniform3f(program.name(), place, v[0], v[1], v[2]);
   if (v.size() == 2) gl::api().ProgramUniform2f(program.name(), place, v[0], v[1]);
+}
+
+// HLSL has texture and sampler apart. The way back to GLSL joins each pair that is used, under a name of both.
+void set_texture(const gl::Program& program, const std::string& name, GLuint unit) {
+  for (const auto& [uniform, _] : program.uniforms()) {
+    if (uniform != name && !uniform.starts_with("SPIRV_Cross_Combined" + name)) continue;
+    gl::api().ProgramUniform1i(program.name(), program.uniform(uniform.c_str()), static_cast<GLint>(unit));
+  }
+}
+
+gl::Program program_of(const std::string& module, const std::string& shader) {
+  if (shader.empty()) {
+    const std::string looks_around = module.find("lookAround") == std::string::npos ? "" : "#define LOOKS_AROUND\n";
+    return {"bare", std::string("#version 450 core") + vertex_text,
+            "#version 450 core\n" + looks_around + module + main_text};
+  }
+  return {"translated", shader.substr(0, shader.find('\n')) + vertex_text, shader};
 }
 
 // Rows from the top.
@@ -185,13 +210,23 @@ struct Triangles {
 
 }  // namespace
 
-Image render_from_files(const fs::path& folder, const Scene& scene, const glm::ivec2& size, MapFiles maps) {
+Scene rough_square(int texels) {
+  Scene scene = receding_grooves();
+  Material& material = scene.materials.front();
+  material.normal_map->image = std::make_shared<const Image>(random_normals(texels, texels, 0.5F, 3));
+  Image rough(16, 16, 2, 0.0F);
+  for (std::size_t i = 0; i < rough.texel_count(); ++i) rough.texels[2 * i] = 0.3F + 0.02F * static_cast<float>(i % 16);
+  material.metallic_roughness_map = TextureMap{"roughness", std::make_shared<const Image>(rough), {}};
+  return scene;
+}
+
+Image render_from_files(const fs::path& folder, const Scene& scene, const glm::ivec2& size, MapFiles maps,
+                        const std::string& shader) {
   const gl::Context& context = shared_context();
   const Json manifest = Json::parse(text_of(folder / "manifest.json"));
   const Json& material = manifest["materials"][0];
   const std::string module = text_of(folder / manifest["module"].get<std::string>());
-  const std::string looks_around = module.find("lookAround") == std::string::npos ? "" : "#define LOOKS_AROUND\n";
-  const gl::Program program("bare", vertex_text, "#version 450 core\n" + looks_around + module + main_text);
+  const gl::Program program = program_of(module, shader);
   std::vector<gl::Texture> textures;
   std::vector<gl::Sampler> samplers;
   for (const Json& texture : material["textures"]) {
@@ -200,10 +235,12 @@ Image render_from_files(const fs::path& folder, const Scene& scene, const glm::i
     samplers.push_back(sampler_of(texture));
     gl::api().BindTextureUnit(unit, textures.back().name());
     gl::api().BindSampler(unit, samplers.back().name());
-    const GLint place = program.uniform(texture["name"].get<std::string>().c_str());
-    if (place >= 0) gl::api().ProgramUniform1i(program.name(), place, static_cast<GLint>(unit));
+    set_texture(program, texture["name"], unit);
   }
   for (const auto& [name, value] : material["uniforms"].items()) set_uniform(program, name, value);
+
+  const std::string filter = manifest["footprint"];
+  set_uniform(program, "footprint_parts", std::stoi(filter.substr(filter.find(':') + 1)));
 
   const Json& surface = material["surface"];
   const auto base = surface["base_color"].get<std::vector<float>>();
@@ -223,10 +260,10 @@ Image render_from_files(const fs::path& folder, const Scene& scene, const glm::i
   set_uniform(program, "candela", {lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
   const glm::mat4 world_to_clip =
       tile_matrix({.size = size, .camera = scene.camera}, {.origin = {0, 0}, .size = size}, {0.0, 0.0});
-  gl::api().ProgramUniformMatrix4fv(program.name(), program.uniform("world_to_clip"), 1, GL_FALSE,
+  gl::api().ProgramUniformMatrix4fv(program.name(), place_of(program, "world_to_clip"), 1, GL_FALSE,
                                     glm::value_ptr(world_to_clip));
 
-  if (const GLint place = program.uniform("world_to_camera"); place >= 0) {
+  if (const GLint place = place_of(program, "world_to_camera"); place >= 0) {
     const glm::mat3 turn = footprint::world_to_camera(scene.camera);
     gl::api().ProgramUniformMatrix3fv(program.name(), place, 1, GL_FALSE, glm::value_ptr(turn));
   }

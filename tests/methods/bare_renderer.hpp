@@ -12,9 +12,14 @@ namespace footprint::testing {
 /// In which files it looks for the maps.
 enum class MapFiles { exr, ktx2 };
 
+/// A scene for it, with bumps and a roughness that varies, seen obliquely: several levels and several probes are read.
+/// texels: of a side of the normal map.
+[[nodiscard]] Scene rough_square(int texels = 32);
+
 /// Draws the first mesh of a scene, lit by its first light, with the files of a bake in `folder`; linear radiance and
 /// coverage, as the pipeline's pictures are.
+/// shader: a translation of the module into GLSL or ESSL, drawn in the module's place; empty: none.
 [[nodiscard]] Image render_from_files(const std::filesystem::path& folder, const Scene& scene, const glm::ivec2& size,
-                                      MapFiles maps);
+                                      MapFiles maps, const std::string& shader = {});
 
 }  // namespace footprint::testing

@@ -1,5 +1,5 @@
 // Compiles by glslang in this process, with the OpenGL bindings moved to where Vulkan's do not collide.
-#include "renderer/gpu_cost/spirv.hpp"
+#include "renderer/languages/spirv.hpp"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -23,15 +23,21 @@ Error invalid(const std::string& name, const char* log) {
   return {ErrorKind::machine, name, std::string("not valid for Vulkan: ") + log};
 }
 
-void parse(glslang::TShader& shader, EShLanguage stage, const std::string& name, const std::string& text) {
+// The first bindings of blocks and of plain uniforms.
+struct BlockBindings {
+  std::uint32_t first_block = 0, plain_uniforms = 0;
+};
+
+void parse(glslang::TShader& shader, EShLanguage stage, const std::string& name, const std::string& text,
+           const BlockBindings& bindings) {
   const char* const source = text.c_str();
   shader.setStrings(&source, 1);
   shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
   shader.setEnvInputVulkanRulesRelaxed();
-  shader.setShiftBinding(glslang::EResUbo, vulkan_binding::first_block);
-  shader.setGlobalUniformBinding(vulkan_binding::plain_uniforms - vulkan_binding::first_block);
+  shader.setShiftBinding(glslang::EResUbo, bindings.first_block);
+  shader.setGlobalUniformBinding(bindings.plain_uniforms - bindings.first_block);
   shader.setAutoMapLocations(true);
   shader.setAutoMapBindings(true);
   if (!shader.parse(GetDefaultResources(), 450, false, messages)) throw invalid(name, shader.getInfoLog());
@@ -46,25 +52,42 @@ void request_unrolling(Spirv& code) {
   }
 }
 
+void link(glslang::TProgram& program, const std::string& name) {
+  if (!program.link(messages) || !program.mapIO()) throw invalid(name, program.getInfoLog());
+}
+
 Spirv spirv_of(const glslang::TProgram& program, EShLanguage stage) {
   Spirv code;
   glslang::GlslangToSpv(*program.getIntermediate(stage), code);
-  request_unrolling(code);
   return code;
 }
 
 }  // namespace
 
 SpirvProgram spirv_program(const std::string& name, const std::string& vertex, const std::string& fragment) {
+  constexpr BlockBindings bindings{vulkan_binding::first_block, vulkan_binding::plain_uniforms};
   start_glslang();
   glslang::TShader vertex_stage(EShLangVertex), fragment_stage(EShLangFragment);
-  parse(vertex_stage, EShLangVertex, name, vertex);
-  parse(fragment_stage, EShLangFragment, name, fragment);
+  parse(vertex_stage, EShLangVertex, name, vertex, bindings);
+  parse(fragment_stage, EShLangFragment, name, fragment, bindings);
   glslang::TProgram program;
   program.addShader(&vertex_stage);
   program.addShader(&fragment_stage);
-  if (!program.link(messages) || !program.mapIO()) throw invalid(name, program.getInfoLog());
-  return {.vertex = spirv_of(program, EShLangVertex), .fragment = spirv_of(program, EShLangFragment)};
+  link(program, name);
+  SpirvProgram stages{.vertex = spirv_of(program, EShLangVertex), .fragment = spirv_of(program, EShLangFragment)};
+  request_unrolling(stages.vertex);
+  request_unrolling(stages.fragment);
+  return stages;
+}
+
+Spirv fragment_spirv(const std::string& name, const std::string& text) {
+  start_glslang();
+  glslang::TShader stage(EShLangFragment);
+  parse(stage, EShLangFragment, name, text, {});
+  glslang::TProgram program;
+  program.addShader(&stage);
+  link(program, name);
+  return spirv_of(program, EShLangFragment);
 }
 
 }  // namespace footprint

@@ -36,4 +36,8 @@ struct SpirvProgram {
 [[nodiscard]] SpirvProgram spirv_program(const std::string& name, const std::string& vertex,
                                          const std::string& fragment);
 
+/// Compiles a fragment shader for translation: its plain uniforms are one block at binding 0, its textures follow.
+/// Throws as spirv_program.
+[[nodiscard]] Spirv fragment_spirv(const std::string& name, const std::string& text);
+
 }  // namespace footprint

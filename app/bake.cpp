@@ -114,13 +114,10 @@ std::vector<EngineMaps> engine_maps_of(const Scene& scene, const BakedMethod& ba
 
 // Writes the copy of the model, with the maps of all materials that have some. Returns its path in the folder.
 std::string copy_gltf(const BakeToFiles& bake, int level, const std::filesystem::path& folder) {
-  const BakeListing listing = list_bake(bake);
   std::vector<ReplacedMaps> maps;
   for (std::size_t i = 0; i < bake.engine.size(); ++i) {
     if (bake.engine[i].textures.empty()) continue;
-    std::vector<std::string> mips;
-    for (const std::string& file : listing.materials[i].imports.at(1).png) mips.push_back("../" + file);
-    maps.push_back(replaced_maps(bake.engine[i], bake.scene.materials[i], level, std::move(mips)));
+    maps.push_back(replaced_maps(bake.engine[i], bake.scene.materials[i], level));
   }
   if (maps.empty()) {
     throw Error(ErrorKind::usage, "--gltf",

@@ -48,6 +48,17 @@ Image fitting(const std::vector<Image>& chain, int width, int height) {
   return out;
 }
 
+// A level as glTF has it: 1, roughness and, if it is in a map, metallic.
+Image joined(const Image& roughness, const std::vector<Image>& metallic, bool metallic_in_map) {
+  Image out(roughness.width, roughness.height, 3, 1.0F);
+  const Image fit = fitting(metallic, roughness.width, roughness.height);
+  for (std::size_t i = 0; i < roughness.texel_count(); ++i) {
+    out.texels[3 * i + 1] = roughness.texels[i];
+    if (metallic_in_map) out.texels[3 * i + 2] = fit.texels[i];
+  }
+  return out;
+}
+
 // PNG has no two channels that every reader takes for two numbers.
 bool fits_png(const PrefilteredTexture& texture) { return texture.storage == Storage::unorm8 && texture.channels != 2; }
 
@@ -118,22 +129,19 @@ EngineMaps engine_maps(const BakedMethod& baked, const Material& material) {
           .missing = {}};
 }
 
-ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level, std::vector<std::string> mips) {
+ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level) {
   const PrefilteredTexture &normal = maps.textures.at(0), &rough = maps.textures.at(1);
   const std::size_t at = std::min(static_cast<std::size_t>(level), normal.levels.size() - 1);
   // Of a roughness map that is finer than the normal map the level as large as the normal map's; unless nothing is cut.
   const std::size_t finer = at == 0 ? 0 : rough.levels.size() - normal.levels.size();
-  const Image roughness = decode_level(rough, at + finer);
   ReplacedMaps replaced{.material = material.name,
-                        .normal = decode_level(normal, at),
-                        .rough_metallic = Image(roughness.width, roughness.height, 3, 1.0F),
-                        .metallic_in_map = metallic_map(material) != nullptr,
-                        .roughness_mips = std::move(mips)};
-  const Image metallic = fitting(mip_chain(metallic_map_of(material)), roughness.width, roughness.height);
-  for (std::size_t i = 0; i < roughness.texel_count(); ++i) {
-    replaced.rough_metallic.texels[3 * i + 1] = roughness.texels[i];
-    if (replaced.metallic_in_map) replaced.rough_metallic.texels[3 * i + 2] = metallic.texels[i];
-  }
+                        .normal = {},
+                        .rough_metallic = {},
+                        .metallic_in_map = metallic_map(material) != nullptr};
+  for (std::size_t l = at; l < normal.levels.size(); ++l) replaced.normal.push_back(decode_level(normal, l));
+  const std::vector<Image> metallic = mip_chain(metallic_map_of(material));
+  for (std::size_t l = at + finer; l < rough.levels.size(); ++l)
+    replaced.rough_metallic.push_back(joined(decode_level(rough, l), metallic, replaced.metallic_in_map));
   return replaced;
 }
 

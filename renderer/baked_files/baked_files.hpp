@@ -23,12 +23,9 @@ struct EngineMaps {
 /// The roughness of `Method::roughness_mips`, and renormalised mean normals as (n + 1) / 2.
 [[nodiscard]] EngineMaps engine_maps(const BakedMethod& baked, const Material& material);
 
-/// Level `level` of these maps, or the coarsest, for a copy of the model with smaller maps. Metallic is added to the
-/// roughness.
-/// maps: of engine_maps, not empty.
-/// mips: as ReplacedMaps::roughness_mips.
-[[nodiscard]] ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level,
-                                         std::vector<std::string> mips);
+/// Level `level` of these maps, or the coarsest, and all coarser ones, for a copy of the model with smaller maps.
+/// Metallic is added to the roughness. maps: of engine_maps, not empty.
+[[nodiscard]] ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level);
 
 /// The content of an export.
 struct BakeToFiles {

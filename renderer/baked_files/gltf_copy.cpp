@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "renderer/baked_files/ktx2.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
@@ -18,6 +20,13 @@ namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* dds_extension = "MSFT_texture_dds";
+
+void use_extension(Json& document, const char* name) {
+  Json& used = document["extensionsUsed"];
+  if (std::ranges::find(used, Json(name)) == used.end()) used.push_back(name);
+}
 
 // The JSON of a file that read_gltf has checked.
 Json json_of(const std::filesystem::path& source) {
@@ -75,12 +84,32 @@ Json& material_called(Json& document, const std::string& name, const std::string
   return *found;
 }
 
-// Adds an image and a texture of it; returns the texture's index.
-std::size_t add_texture(Json& document, const std::string& file, const Json& sampler, const Json& extras) {
-  document["images"].push_back({{"uri", file}});
-  Json texture{{"source", document["images"].size() - 1}};
+PrefilteredTexture four_channels(std::vector<Image> chain) {
+  for (Image& level : chain) {
+    Image opaque(level.width, level.height, 4, 1.0F);
+    for (std::size_t i = 0; i < level.texel_count(); ++i) std::copy_n(&level.texels[3 * i], 3, &opaque.texels[4 * i]);
+    level = std::move(opaque);
+  }
+  return make_texture("map", std::move(chain), Storage::unorm8, {});
+}
+
+std::size_t add_image(Json& document, const std::string& file, const char* type) {
+  document["images"].push_back({{"uri", file}, {"mimeType", type}});
+  return document["images"].size() - 1;
+}
+
+// Writes the files of a map and adds a texture of them; returns the texture's index.
+std::size_t add_texture(Json& document, const std::string& stem, const std::vector<Image>& chain, const Json& sampler,
+                        const std::filesystem::path& folder) {
+  const PrefilteredTexture texels = four_channels(chain);
+  write_png(folder / (stem + ".png"), chain.front());
+  write_file_atomically(folder / (stem + ".dds"), dds_bytes(texels));
+  write_file_atomically(folder / (stem + ".ktx2"), ktx2_bytes(texels));
+  Json texture{{"source", add_image(document, stem + ".png", "image/png")}};
   if (!sampler.is_null()) texture["sampler"] = sampler;
-  if (!extras.is_null()) texture["extras"] = extras;
+  texture["extensions"][dds_extension]["source"] = add_image(document, stem + ".dds", "image/vnd-ms.dds");
+  texture["extras"]["footprint_ktx2"] = stem + ".ktx2";
+  use_extension(document, dds_extension);
   document["textures"].push_back(std::move(texture));
   return document["textures"].size() - 1;
 }
@@ -96,9 +125,6 @@ Json looked_up_as(const Json& normal, std::size_t texture) {
 
 void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, const std::string& source,
              const std::filesystem::path& folder) {
-  const std::string normal_file = stem + ".normal.png", rough_file = stem + ".metallic_roughness.png";
-  write_png(folder / normal_file, maps.normal);
-  write_png(folder / rough_file, maps.rough_metallic);
   const Json& old = material_called(document, maps.material, source);
   if (old.contains("extensions") && old["extensions"].contains("KHR_materials_pbrSpecularGlossiness")) {
     throw Error(ErrorKind::usage, source,
@@ -117,9 +143,9 @@ void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, 
   const Json normal = old.at("normalTexture");
   const Json& old_texture = document["textures"][normal["index"].get<std::size_t>()];
   const Json sampler = old_texture.contains("sampler") ? old_texture["sampler"] : Json();
-  const std::size_t normal_texture = add_texture(document, normal_file, sampler, nullptr);
+  const std::size_t normal_texture = add_texture(document, stem + ".normal", maps.normal, sampler, folder);
   const std::size_t rough_texture =
-      add_texture(document, rough_file, sampler, Json{{"footprint_mips", maps.roughness_mips}});
+      add_texture(document, stem + ".metallic_roughness", maps.rough_metallic, sampler, folder);
   Json& material = material_called(document, maps.material, source);
   material["normalTexture"] = looked_up_as(normal, normal_texture);
   Json& surface = material["pbrMetallicRoughness"];

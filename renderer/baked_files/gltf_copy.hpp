@@ -10,20 +10,19 @@
 
 namespace footprint {
 
-/// The maps of one material that are replaced.
+/// The maps of one material that are replaced, each a mip chain of 8-bit values, 3 channels.
 struct ReplacedMaps {
-  std::string material;  ///< as the loader calls it: its name, or "material N"
-  Image normal;          ///< 3 channels, (n + 1) / 2
-  Image rough_metallic;  ///< 3 channels as glTF has them: 1, perceptual roughness, metallic; looked up as the normal
-                         ///< map is
-  bool metallic_in_map = false;  ///< else the metallic factor stays
-  std::vector<std::string>
-      roughness_mips;  ///< files of the whole chain, from the copy's folder: in the texture's extras
+  std::string material;               ///< as the loader calls it: its name, or "material N"
+  std::vector<Image> normal;          ///< (n + 1) / 2
+  std::vector<Image> rough_metallic;  ///< 1, perceptual roughness, metallic; looked up as the normal map is
+  bool metallic_in_map = false;       ///< else the metallic factor stays
 };
 
 /// Writes `source` (.gltf or .glb) with these maps as FOLDER/NAME.gltf, its buffers and images as files beside it,
-/// where no path of the source leads. Returns the file's name. Throws Error (usage): the source cannot be read, two of
-/// its materials have one of these names, or none has; (machine): a file cannot be written.
+/// where no path of the source leads. A map has three files: its finest level as PNG, and the whole chain as DDS, which
+/// MSFT_texture_dds refers to, and as KTX2, which extras do: no extension takes KTX2 without Basis Universal. Returns
+/// the file's name. Throws Error (usage): the source cannot be read, two of its materials have one of these names, or
+/// none has; (machine): a file cannot be written.
 std::string write_gltf_copy(const std::filesystem::path& source, std::span<const ReplacedMaps> maps,
                             const std::filesystem::path& folder);
 

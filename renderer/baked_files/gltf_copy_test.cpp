@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <OpenImageIO/imageio.h>
+
 #include <fstream>
 #include <iterator>
 
@@ -10,6 +12,7 @@
 #include "renderer/scene/model.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
+#include "tests/support/ktx2_reader.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/test_scenes.hpp"
 
@@ -51,11 +54,11 @@ ReplacedMaps smaller_maps(bool metallic_in_map) {
     rough.texels[3 * i + 1] = static_cast<float>(10 + i) / 255.0F;
     if (metallic_in_map) rough.texels[3 * i + 2] = static_cast<float>(100 + i) / 255.0F;
   }
+  // Coarser levels that are no means of finer ones: only files with a whole chain can have them.
   return {.material = "bumpy",
-          .normal = encoded(random_normals(4, 4, 0.3F, 2)),
-          .rough_metallic = rough,
-          .metallic_in_map = metallic_in_map,
-          .roughness_mips = {"../a.mip0.png", "../a.mip1.png"}};
+          .normal = {encoded(random_normals(4, 4, 0.3F, 2)), Image(2, 2, 3, 0.2F), Image(1, 1, 3, 0.4F)},
+          .rough_metallic = {rough, Image(2, 2, 3, 0.6F), Image(1, 1, 3, 0.8F)},
+          .metallic_in_map = metallic_in_map};
 }
 
 Material copied_material(const fs::path& source, const ReplacedMaps& maps, const fs::path& folder) {
@@ -112,14 +115,53 @@ TEST(GltfCopy, TakesItsFilesAlong) {
   EXPECT_NEAR(color->image.decoded().texels[0], 0.0513, 1e-3);  // sRGB 0.25, 64 of 255
 }
 
-TEST(GltfCopy, NamesTheWholeChainInExtras) {
+std::vector<std::uint8_t> file_bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The first three channels of a level of DDS, as OpenImageIO reads it.
+std::vector<float> dds_level(const fs::path& file, int level) {
+  const auto input = OIIO::ImageInput::open(file.string());
+  if (!input) throw std::runtime_error(OIIO::geterror());
+  const OIIO::ImageSpec spec = input->spec(0, level);
+  std::vector<float> texels(static_cast<std::size_t>(3 * spec.width * spec.height));
+  if (!input->read_image(0, level, 0, 3, OIIO::TypeDesc::FLOAT, texels.data()))
+    throw std::runtime_error(input->geterror());
+  return texels;
+}
+
+void expect_chain(const fs::path& folder, const nlohmann::json& json, std::size_t texture,
+                  const std::vector<Image>& chain) {
+  const auto& entry = json["textures"][texture];
+  const std::size_t dds = entry["extensions"]["MSFT_texture_dds"]["source"];
+  const test::Ktx2File ktx2 =
+      test::read_ktx2(file_bytes(folder / entry["extras"]["footprint_ktx2"].get<std::string>()));
+  EXPECT_EQ(ktx2.vk_format, 37U);  // VK_FORMAT_R8G8B8A8_UNORM
+  ASSERT_EQ(ktx2.levels.size(), chain.size());
+  for (std::size_t level = 0; level < chain.size(); ++level) {
+    const std::vector<float> by_oiio =
+        dds_level(folder / json["images"][dds]["uri"].get<std::string>(), static_cast<int>(level));
+    ASSERT_EQ(by_oiio.size(), chain[level].texels.size());
+    for (std::size_t i = 0; i < by_oiio.size(); ++i) {
+      EXPECT_NEAR(by_oiio[i], chain[level].texels[i], 0.51 / 255);
+      EXPECT_NEAR(ktx2.levels[level].bytes[i / 3 * 4 + i % 3] / 255.0, chain[level].texels[i], 0.51 / 255);
+    }
+  }
+}
+
+TEST(GltfCopy, RefersToTheWholeChains) {
   const fs::path folder = test::fresh_folder();
-  const ReplacedMaps maps = smaller_maps(false);
+  const ReplacedMaps maps = smaller_maps(true);
   const std::string name = write_gltf_copy(bumpy().write(), std::span(&maps, 1), folder);
   std::ifstream stream(folder / name);
   const auto json = nlohmann::json::parse(std::string(std::istreambuf_iterator<char>(stream), {}));
-  const std::size_t texture = json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"]["index"];
-  EXPECT_EQ(json["textures"][texture]["extras"]["footprint_mips"], nlohmann::json(maps.roughness_mips));
+  EXPECT_EQ(json["extensionsUsed"], nlohmann::json({"KHR_texture_transform", "MSFT_texture_dds"}));
+  EXPECT_FALSE(json.contains("extensionsRequired"));  // a reader without it takes the PNG
+  const auto& material = json["materials"][0];
+  expect_chain(folder, json, material["normalTexture"]["index"], maps.normal);
+  expect_chain(folder, json, material["pbrMetallicRoughness"]["metallicRoughnessTexture"]["index"],
+               maps.rough_metallic);
 }
 
 TEST(GltfCopy, RefusesMaterialsThatStoreGlossiness) {

@@ -138,4 +138,26 @@ std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
   return out.take();
 }
 
+// Microsoft, "Programming guide for DDS": DDS_HEADER with DDS_PIXELFORMAT.
+std::vector<std::uint8_t> dds_bytes(const PrefilteredTexture& texture) {
+  constexpr std::uint32_t caps = 0x1, height = 0x2, width = 0x4, pitch = 0x8, pixel_format = 0x1000, mips = 0x20000;
+  constexpr std::uint32_t has_alpha = 0x1, is_rgb = 0x40, is_texture = 0x1000, is_complex = 0x8, has_mips = 0x400000;
+  if (texture.storage != Storage::unorm8 || texture.channels != 4 || texture.layers > 0)
+    throw std::logic_error("texture " + texture.name + " is not of four bytes");
+  const TextureLevel& finest = texture.levels.front();
+  Bytes out;
+  out.text("DDS ");
+  const auto words = [&](std::initializer_list<std::uint32_t> values) {
+    for (const std::uint32_t value : values) out.word(value);
+  };
+  words({124, caps | height | width | pitch | pixel_format | mips, static_cast<std::uint32_t>(finest.height),
+         static_cast<std::uint32_t>(finest.width), static_cast<std::uint32_t>(4 * finest.width), 0,
+         static_cast<std::uint32_t>(texture.levels.size())});
+  out.pad_to(out.size() + 44);  // reserved
+  words({32, has_alpha | is_rgb, 0, 32, 0x000000FF, 0x0000FF00, 0x00FF0000, 0xFF000000});
+  words({is_texture | is_complex | has_mips, 0, 0, 0, 0});
+  for (const TextureLevel& level : texture.levels) out.block(level.bytes);
+  return out.take();
+}
+
 }  // namespace footprint

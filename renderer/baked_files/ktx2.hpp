@@ -1,5 +1,5 @@
 // A prefiltered texture as a KTX 2.0 file (Khronos' KTX File Format Specification, version 2.0): all levels and layers
-// in the texture's own storage, without supercompression.
+// in the texture's own storage, without supercompression. Also as a DDS file, for readers without KTX2.
 #pragma once
 
 #include <cstdint>
@@ -16,5 +16,9 @@ namespace footprint {
 /// 0) and KTXwriter, and the levels, coarsest first. Equal textures give equal bytes. Throws std::logic_error: a
 /// texture of a frame build.
 [[nodiscard]] std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture);
+
+/// A plain texture of `unorm8` with 4 channels as a DirectDraw surface with all its levels: the header of 2001, which
+/// every reader knows.
+[[nodiscard]] std::vector<std::uint8_t> dds_bytes(const PrefilteredTexture& texture);
 
 }  // namespace footprint

@@ -95,11 +95,12 @@ TEST(EngineMaps, AreNotThereOfOtherMethodsAndMaterials) {
 
 // The square with its maps replaced, as the glTF copy has them.
 Scene with_level(const Scene& scene, const std::string& text, int level, bool with_roughness) {
-  const ReplacedMaps maps = replaced_maps(maps_of(scene, text), scene.materials[0], level, {});
-  Image normals(maps.normal.width, maps.normal.height, 4, 1.0F), rough(maps.normal.width, maps.normal.height, 2, 0.0F);
+  const ReplacedMaps maps = replaced_maps(maps_of(scene, text), scene.materials[0], level);
+  const Image &normal = maps.normal.front(), &rough_metallic = maps.rough_metallic.front();
+  Image normals(normal.width, normal.height, 4, 1.0F), rough(normal.width, normal.height, 2, 0.0F);
   for (std::size_t i = 0; i < normals.texel_count(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) normals.texels[4 * i + c] = 2.0F * maps.normal.texels[3 * i + c] - 1.0F;
-    rough.texels[2 * i] = maps.rough_metallic.texels[3 * i + 1];
+    for (std::size_t c = 0; c < 3; ++c) normals.texels[4 * i + c] = 2.0F * normal.texels[3 * i + c] - 1.0F;
+    rough.texels[2 * i] = rough_metallic.texels[3 * i + 1];
   }
   Scene small = scene;
   small.materials[0].normal_map->image = std::make_shared<const Image>(normals);

@@ -26,6 +26,15 @@ if(NOT TARGET Highway::hwy)
   set_target_properties(Highway::hwy PROPERTIES IMPORTED_LOCATION "${FOOTPRINT_HIGHWAY_LIBRARY}"
                                                 INTERFACE_INCLUDE_DIRECTORIES "${FOOTPRINT_HIGHWAY_HEADERS}")
 endif()
+# Nor does Debian's libsquish.
+find_path(FOOTPRINT_SQUISH_HEADERS squish.h REQUIRED)
+find_library(FOOTPRINT_SQUISH_LIBRARY squish REQUIRED)
+mark_as_advanced(FOOTPRINT_SQUISH_HEADERS FOOTPRINT_SQUISH_LIBRARY)
+if(NOT TARGET Squish::Squish)
+  add_library(Squish::Squish UNKNOWN IMPORTED)
+  set_target_properties(Squish::Squish PROPERTIES IMPORTED_LOCATION "${FOOTPRINT_SQUISH_LIBRARY}"
+                                                  INTERFACE_INCLUDE_DIRECTORIES "${FOOTPRINT_SQUISH_HEADERS}")
+endif()
 if(FOOTPRINT_TESTS)
   find_package(GTest CONFIG REQUIRED)
 endif()

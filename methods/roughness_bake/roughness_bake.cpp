@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "methods/roughness_bake/anisotropic_roughness.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -18,48 +19,7 @@ namespace roughness_bake {
 namespace {
 
 // Bytes cannot store a sum of variances.
-Storage spread_storage(Storage storage) { return storage == Storage::unorm8 ? Storage::fp16 : storage; }
-
-}  // namespace
-
-std::vector<Image> spread_chain(Image normals, Preset preset) {
-  std::vector<Image> chain;
-  for (const Image& level : mean_normal_chain(std::move(normals))) {
-    const bool finest = chain.empty();
-    Image& out = chain.emplace_back(level.width, level.height, 1);
-    for (std::size_t i = 0; i < level.texel_count(); ++i) {
-      const float* const n = &level.texels[3 * i];
-      const double length = std::hypot(double{n[0]}, double{n[1]}, double{n[2]});
-      const double shortfall = shortfall_of_length(length);
-      if (finest && shortfall == 0.0) continue;  // Filament's finest level is the roughness as given
-      out.texels[i] = static_cast<float>(stored_spread(preset, shortfall));
-    }
-  }
-  return chain;
-}
-
-Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage, const EffectSet& effects) {
-  const Storage wide = spread_storage(storage);
-  Prefiltered out = bake_mean_normal(material, storage, effects);
-  if (has(effects, Effect::normal_variation)) {
-    out.textures.push_back(make_texture("normal_spread", spread_chain(normal_map_of(material), preset), wide,
-                                        normal_coordinates(material)));
-  }
-  if (has(effects, Effect::normal_layers)) {
-    out.textures.push_back(
-        make_texture("layer_spread", spread_chain(layer_map_of(material), preset), wide, layer_coordinates(material)));
-  }
-  append(out.textures, bake_mean_roughness(material, storage, effects).textures);
-  return out;
-}
-
-}  // namespace roughness_bake
-
-extern const EmbeddedTexts roughness_bake_glsl;
-
-namespace {
-
-using namespace roughness_bake;
+Storage spread_storage(Storage storage) { return is_coarse(storage) ? Storage::fp16 : storage; }
 
 // Repeats the texels of a coarse image over a finer size.
 Image repeated(const Image& coarse, int width, int height) {
@@ -103,6 +63,57 @@ void require_one_map(const Material& material, bool sizes_fit) {
               "draw it with the shader module of this method");
 }
 
+}  // namespace
+
+CommonLevels common_levels(const Material& material, const std::vector<Image>& over_normals) {
+  const Image rough = roughness_map_of(material);
+  const int width = std::max(rough.width, over_normals.front().width),
+            height = std::max(rough.height, over_normals.front().height);
+  const auto fine_normals = extended_chain(over_normals, width, height);
+  const auto fine_rough = extended_chain(mip_chain(rough), width, height);
+  require_one_map(material, fine_normals && fine_rough);
+  return {.rough = *fine_rough, .normals = *fine_normals};
+}
+
+std::vector<Image> spread_chain(Image normals, Preset preset) {
+  std::vector<Image> chain;
+  for (const Image& level : mean_normal_chain(std::move(normals))) {
+    const bool finest = chain.empty();
+    Image& out = chain.emplace_back(level.width, level.height, 1);
+    for (std::size_t i = 0; i < level.texel_count(); ++i) {
+      const float* const n = &level.texels[3 * i];
+      const double length = std::hypot(double{n[0]}, double{n[1]}, double{n[2]});
+      const double shortfall = shortfall_of_length(length);
+      if (finest && shortfall == 0.0) continue;  // Filament's finest level is the roughness as given
+      out.texels[i] = static_cast<float>(stored_spread(preset, shortfall));
+    }
+  }
+  return chain;
+}
+
+Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage, const EffectSet& effects) {
+  const Storage wide = spread_storage(storage);
+  Prefiltered out = bake_mean_normal(material, storage, effects);
+  if (has(effects, Effect::normal_variation)) {
+    out.textures.push_back(make_texture("normal_spread", spread_chain(normal_map_of(material), preset), wide,
+                                        normal_coordinates(material)));
+  }
+  if (has(effects, Effect::normal_layers)) {
+    out.textures.push_back(
+        make_texture("layer_spread", spread_chain(layer_map_of(material), preset), wide, layer_coordinates(material)));
+  }
+  append(out.textures, bake_mean_roughness(material, storage, effects).textures);
+  return out;
+}
+
+}  // namespace roughness_bake
+
+extern const EmbeddedTexts roughness_bake_glsl;
+
+namespace {
+
+using namespace roughness_bake;
+
 // Evaluates the formula at every texel; the shader also evaluates it in between.
 std::vector<Image> joined_chain(const Formula& formula, const Material& material, std::vector<Image> rough,
                                 const std::vector<Image>& spread) {
@@ -119,22 +130,27 @@ std::vector<Image> joined_chain(const Formula& formula, const Material& material
   return rough;
 }
 
+bool is_anisotropic(const Options& options) { return options.word("anisotropic") == "on"; }
+
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& /*progress*/) {
   const Formula formula = formula_of(options);
-  return bake_roughness(material, formula.preset, parse_storage(options.word("storage")), effects);
+  const Storage storage = parse_storage(options.word("storage"));
+  if (!is_anisotropic(options) || !has(effects, Effect::normal_variation))
+    return bake_roughness(material, formula.preset, storage, effects);
+  Prefiltered out = bake_mean_normal(material, storage, effects);
+  // No block has four channels without a loss of direction.
+  out.textures.push_back(make_texture("anisotropic_roughness", directed_chain(material),
+                                      is_block(storage) ? Storage::unorm8 : storage, normal_coordinates(material)));
+  return out;
 }
 
 std::optional<std::vector<Image>> roughness_mips(const Material& material, const Options& options) {
   if (!material.normal_map) return {};
+  if (is_anisotropic(options)) return directed_chain(material);
   const Formula formula = formula_of(options);
-  const Image rough = roughness_map_of(material);
-  const std::vector<Image> spread = spread_chain(normal_map_of(material), formula.preset);
-  const int width = std::max(rough.width, spread.front().width), height = std::max(rough.height, spread.front().height);
-  const auto fine_spread = extended_chain(spread, width, height);
-  const auto fine_rough = extended_chain(mip_chain(rough), width, height);
-  require_one_map(material, fine_spread && fine_rough);
-  return joined_chain(formula, material, *fine_rough, *fine_spread);
+  CommonLevels levels = common_levels(material, spread_chain(normal_map_of(material), formula.preset));
+  return joined_chain(formula, material, std::move(levels.rough), levels.normals);
 }
 
 }  // namespace
@@ -157,7 +173,10 @@ const Method& roughness_bake_method() {
                        named_in_shaders(number_option("cap", Formula{}.cap, 0.0, 1.0,
                                                       "Of preset=free: the most that is added to alpha^2."),
                                         "bake_cap"),
-                       storage_option()},
+                       word_option("anisotropic", {"off", "on"},
+                                   "Whether the roughness has a direction, from the covariance of slopes "
+                                   "(KHR_materials_anisotropy); `preset` is then ignored."),
+                       block_storage_option(true)},
            .honours = map_effects_but({Effect::anisotropic_lobe})},
       .precompute = precompute,
       .shader = module_of(roughness_bake_glsl, "roughness_bake.glsl"),

@@ -1,4 +1,7 @@
 // The mean normal under a lobe as wide as engines bake it into roughness mips.
+//? if anisotropic_on and normal_variation
+//? include anisotropic_roughness.glsl
+//? else
 //? include mean_normal.glsl
 //? include facets_module.glsl
 //? include baked_roughness.glsl
@@ -11,3 +14,4 @@ Effective effective(Footprints f) {
 //? end
   return Effective(spreadFacets(meanNormal(f).xyz, variance, added));
 }
+//? end

@@ -20,4 +20,15 @@ namespace footprint::roughness_bake {
 [[nodiscard]] Prefiltered bake_roughness(const Material& material, Preset preset, Storage storage,
                                          const EffectSet& effects);
 
+/// Mip chains with the same sizes.
+struct CommonLevels {
+  std::vector<Image> rough;    ///< the mean roughness
+  std::vector<Image> normals;  ///< values over the normal map
+};
+
+/// Both with the sizes of the larger map, whose finer levels repeat the texels of the smaller one.
+/// over_normals: a chain of the normal map.
+/// Throws Error (usage): one roughness map cannot store both.
+[[nodiscard]] CommonLevels common_levels(const Material& material, const std::vector<Image>& over_normals);
+
 }  // namespace footprint::roughness_bake

@@ -109,6 +109,28 @@ TEST(RoughnessBake, EveryPresetDrawsAPictureOfItsOwn) {
   EXPECT_EQ(of(Preset::free), of(Preset::mjp_vmf)) << "constant 2, capped at 1";
 }
 
+// Grooves seen along them: a lobe with two widths leaves less than the round one.
+TEST(RoughnessBake, AnisotropicDrawsGrooves) {
+  const Scene scene = receding_grooves();
+  TestRenderer renderer(scene, {32, 32});
+  const Image reference = renderer.reference(1024).mean;
+  const auto error = [&](const std::string& text) {
+    return compare_images(renderer.frame(roughness_bake_method(), text), reference, 1.0F).value().relative_rmse;
+  };
+  const double round = error("roughness_bake"), directed = error("roughness_bake:anisotropic=on");
+  EXPECT_LT(directed, 0.8 * round) << directed << " and " << round;
+  EXPECT_LT(std::abs(error("roughness_bake:anisotropic=on:storage=unorm8") - directed), 0.1 * directed);
+}
+
+// On a map without spread both widths are the roughness.
+TEST(RoughnessBake, AnisotropicOfOneTiltIsTheRoundLobe) {
+  Scene scene = square_scene(constant_normals(8, 8, glm::normalize(glm::vec3(0.3F, 0.2F, 1.0F))), {});
+  TestRenderer renderer(scene, {16, 16});
+  const Image round = renderer.frame(roughness_bake_method());
+  const Image directed = renderer.frame(roughness_bake_method(), "roughness_bake:anisotropic=on");
+  EXPECT_LT(compare_images(directed, round, 1.0F).value().relative_rmse, 1e-3);
+}
+
 TEST(RoughnessBake, RefusesAConstantThatIsNotThePresets) {
   const Options options(roughness_bake_method().info.options, {{"preset", "godot"}, {"constant", "1"}}, "x");
   const Material material = bumpy_scene(NormalDistribution::ggx).materials[0];

@@ -130,8 +130,8 @@ struct Method {
       [](const ShaderVariant& /*variant*/, const Options& /*options*/) { return std::unique_ptr<FrameBuild>(); };
 
   /// For methods that model how engines import maps: the perceptual roughness for each level of the renormalised normal
-  /// map, one channel, 0 to 1. None for other methods, and without a normal map. Throws Error (usage): a roughness map
-  /// of another size than the normal map.
+  /// map, 0 to 1. One channel, or four with KHR_materials_anisotropy's direction (d + 1) / 2 and strength in front of
+  /// it. None for other methods, and without a normal map. Throws Error (usage): one map cannot store it.
   std::function<std::optional<std::vector<Image>>(const Material& material, const Options& options)> roughness_mips =
       [](const Material& /*material*/, const Options& /*options*/) { return std::optional<std::vector<Image>>(); };
 

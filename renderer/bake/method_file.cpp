@@ -90,12 +90,13 @@ struct Input {
 };
 
 std::vector<OptionSpec> storage_alone() { return {storage_option()}; }
+std::vector<OptionSpec> blocks() { return {block_storage_option(false)}; }
 
 constexpr std::array<Input, 8> inputs{
-    {{"mean_normal", mean_normal, storage_alone},
+    {{"mean_normal", mean_normal, blocks},
      {"lobe_variance", lobe_variance,
       [] {
-        return std::vector{storage_option(), roughness_mean_option()};
+        return std::vector{block_storage_option(false), roughness_mean_option()};
       }},
      {"slope_moments", slope_moments,
       [] {

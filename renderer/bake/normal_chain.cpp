@@ -27,6 +27,20 @@ Image without_weight(Image weighted) {
   return out;
 }
 
+// x and y of the renormalised means.
+std::vector<Image> sideways(std::vector<Image> chain) {
+  for (Image& level : chain) {
+    Image out(level.width, level.height, 2);
+    for (std::size_t i = 0; i < out.texel_count(); ++i) {
+      const float* const n = &level.texels[3 * i];
+      const float size = std::max(std::hypot(n[0], n[1], n[2]), 1e-6F);
+      for (std::size_t c = 0; c < 2; ++c) out.texels[2 * i + c] = n[c] / size;
+    }
+    level = std::move(out);
+  }
+  return chain;
+}
+
 }  // namespace
 
 std::vector<Image> mean_normal_chain(const Material& material) { return mean_normal_chain(normal_map_of(material)); }
@@ -46,14 +60,14 @@ double shortfall_of_length(double length) {
 
 Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects) {
   Prefiltered out;
-  if (has(effects, Effect::normal_variation)) {
-    out.textures.push_back(
-        make_texture("mean_normal", mean_normal_chain(material), storage, normal_coordinates(material), true));
-  }
-  if (has(effects, Effect::normal_layers)) {
-    out.textures.push_back(make_texture("mean_layer", mean_normal_chain(layer_map_of(material)), storage,
-                                        layer_coordinates(material), true));
-  }
+  const auto add = [&](const char* name, std::vector<Image> chain, const TextureCoordinates& coordinates) {
+    if (storage == Storage::bc5) chain = sideways(std::move(chain));
+    out.textures.push_back(make_texture(name, std::move(chain), storage, coordinates, true));
+  };
+  if (has(effects, Effect::normal_variation))
+    add("mean_normal", mean_normal_chain(material), normal_coordinates(material));
+  if (has(effects, Effect::normal_layers))
+    add("mean_layer", mean_normal_chain(layer_map_of(material)), layer_coordinates(material));
   return out;
 }
 
@@ -88,8 +102,7 @@ Prefiltered bake_lobe_variance(const Material& material, Storage storage, const 
   if (!has(effects, Effect::roughness_variation)) return out;
   Image finest = lobe_variance_map(material);
   for (float& v : finest.texels) v = stored_roughness(v, mean);
-  out.textures.push_back(make_texture("lobe_variance", mip_chain(finest),
-                                      storage == Storage::unorm8 ? Storage::fp16 : storage,
+  out.textures.push_back(make_texture("lobe_variance", mip_chain(finest), is_coarse(storage) ? Storage::fp16 : storage,
                                       roughness_coordinates(material)));
   return out;
 }
@@ -97,8 +110,8 @@ Prefiltered bake_lobe_variance(const Material& material, Storage storage, const 
 Prefiltered bake_mean_roughness(const Material& material, Storage storage, const EffectSet& effects) {
   Prefiltered out;
   if (has(effects, Effect::roughness_variation)) {
-    out.textures.push_back(make_texture("mean_roughness", mip_chain(roughness_map_of(material)), storage,
-                                        roughness_coordinates(material)));
+    out.textures.push_back(make_texture("mean_roughness", mip_chain(roughness_map_of(material)),
+                                        is_block(storage) ? Storage::bc4 : storage, roughness_coordinates(material)));
   }
   return out;
 }
@@ -106,6 +119,14 @@ Prefiltered bake_mean_roughness(const Material& material, Storage storage, const
 OptionSpec storage_option() {
   return word_option("storage", {"fp32", "fp16", "unorm8"},
                      "How the baked textures are stored: 32-bit floats, 16-bit floats or 8-bit fixed point.");
+}
+
+OptionSpec block_storage_option(bool renormalises) {
+  std::vector<std::string> words{"fp32", "fp16", "unorm8", "bc1"};
+  if (renormalises) words.emplace_back("bc5");
+  return word_option("storage", std::move(words),
+                     "How the baked textures are stored: 32-bit floats, 16-bit floats, 8-bit fixed point, or normals "
+                     "in blocks of 4 x 4 texels.");
 }
 
 OptionSpec float_storage_option() {

@@ -23,7 +23,8 @@ namespace footprint {
 /// length_shortfall.glsl.
 [[nodiscard]] double shortfall_of_length(double length);
 
-/// The texture `mean_normal` of mean_normal.glsl, from that chain; none if normals do not vary.
+/// The texture `mean_normal` of mean_normal.glsl, from that chain; none if normals do not vary. With bc5 it has x and y
+/// of the renormalised means, so that their lengths are lost.
 [[nodiscard]] Prefiltered bake_mean_normal(const Material& material, Storage storage, const EffectSet& effects);
 
 /// Slope variance per axis of the base lobe at every texel of the roughness map, one channel; without a map 1 x 1.
@@ -61,6 +62,9 @@ inline constexpr float stored_lobe_variance = 1.0F / 64.0F;
 
 /// `storage=fp32|fp16|unorm8`.
 [[nodiscard]] OptionSpec storage_option();
+
+/// `storage=fp32|fp16|unorm8|bc1`, and bc5 for a method that uses the mean normal's direction alone.
+[[nodiscard]] OptionSpec block_storage_option(bool renormalises);
 
 /// `storage=fp32|fp16`, for values that exceed the range of 8-bit fixed point.
 [[nodiscard]] OptionSpec float_storage_option();

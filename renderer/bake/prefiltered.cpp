@@ -3,6 +3,7 @@
 
 #include <Imath/half.h>
 #include <fmt/format.h>
+#include <squish.h>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +21,12 @@
 namespace footprint {
 namespace {
 
-constexpr std::array<Word<Storage>, 3> storages{
-    {{Storage::fp32, "fp32"}, {Storage::fp16, "fp16"}, {Storage::unorm8, "unorm8"}}};
+constexpr std::array<Word<Storage>, 6> storages{{{Storage::fp32, "fp32"},
+                                                 {Storage::fp16, "fp16"},
+                                                 {Storage::unorm8, "unorm8"},
+                                                 {Storage::bc1, "bc1"},
+                                                 {Storage::bc4, "bc4"},
+                                                 {Storage::bc5, "bc5"}}};
 constexpr float largest_half = 65504.0F;
 
 // Rounds to nearest, because the driver's own conversion truncates.
@@ -32,10 +37,37 @@ std::uint8_t unorm8(float value, bool signed_range) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0F, 1.0F) * 255.0F));
 }
 
+int block_channels(Storage storage) { return storage == Storage::bc1 ? 3 : storage == Storage::bc5 ? 2 : 1; }
+
+int squish_format(Storage storage) {
+  return storage == Storage::bc1 ? squish::kDxt1 : storage == Storage::bc4 ? squish::kBc4 : squish::kBc5;
+}
+
+// libsquish takes and gives four bytes a texel.
+void encode_blocks(const Image& image, Storage storage, bool signed_range, std::uint8_t* out) {
+  if (image.channels != block_channels(storage))
+    throw std::logic_error(fmt::format("{} has no {} channels", storage_name(storage), image.channels));
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<std::uint8_t> texels(4 * image.texel_count(), 255);
+  for (std::size_t i = 0; i < image.texels.size(); ++i)
+    texels[i / channels * 4 + i % channels] = unorm8(image.texels[i], signed_range);
+  squish::CompressImage(texels.data(), image.width, image.height, out, squish_format(storage));
+}
+
+Image decode_blocks(Storage storage, int width, int height, std::span<const std::uint8_t> bytes) {
+  Image image(width, height, block_channels(storage));
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<std::uint8_t> texels(4 * image.texel_count());
+  squish::DecompressImage(texels.data(), width, height, bytes.data(), squish_format(storage));
+  for (std::size_t i = 0; i < image.texels.size(); ++i)
+    image.texels[i] = static_cast<float>(texels[i / channels * 4 + i % channels]) / 255.0F;
+  return image;
+}
+
 // Appends the texels to `bytes` in their storage.
 void encode(const Image& image, Storage storage, bool signed_range, std::vector<std::uint8_t>& bytes) {
   const std::size_t start = bytes.size();
-  bytes.resize(start + image.texels.size() * channel_bytes(storage));
+  bytes.resize(start + level_bytes(storage, image.channels, image.width, image.height));
   std::uint8_t* const out = bytes.data() + start;
   switch (storage) {
     case Storage::fp32:
@@ -49,6 +81,11 @@ void encode(const Image& image, Storage storage, bool signed_range, std::vector<
       break;
     case Storage::unorm8:
       std::ranges::transform(image.texels, out, [&](float v) { return unorm8(v, signed_range); });
+      break;
+    case Storage::bc1:
+    case Storage::bc4:
+    case Storage::bc5:
+      encode_blocks(image, storage, signed_range, out);
       break;
   }
 }
@@ -64,7 +101,7 @@ void require_finite(const std::string& name, const Image& level) {
 
 // Before a level of `layers` layers is encoded.
 void require_level(const std::string& name, const Image& layer, std::size_t layers, Storage storage) {
-  require_texels(layer.width, layer.height, layer.texels.size() * layers * channel_bytes(storage),
+  require_texels(layer.width, layer.height, layers * level_bytes(storage, layer.channels, layer.width, layer.height),
                  "a level of texture " + name);
 }
 
@@ -85,7 +122,7 @@ std::vector<TextureLevel> encode_levels(const std::string& name, std::vector<std
     const int width = first.width, height = first.height, channels = first.channels;
     require_level(name, first, layers.size(), storage);
     TextureLevel level{.width = width, .height = height, .bytes = {}};
-    level.bytes.reserve(first.texels.size() * channel_bytes(storage) * layers.size());
+    level.bytes.reserve(level_bytes(storage, channels, width, height) * layers.size());
     for (std::vector<Image>& layer : layers) {
       Image& image = layer.at(i);
       if (image.width != width || image.height != height || image.channels != channels)
@@ -111,19 +148,31 @@ std::size_t channel_bytes(Storage storage) {
       return 2;
     case Storage::unorm8:
       return 1;
+    case Storage::bc1:
+    case Storage::bc4:
+      return 8;
+    case Storage::bc5:
+      return 16;
   }
   return 0;
+}
+
+bool is_block(Storage storage) { return storage >= Storage::bc1; }
+
+std::size_t level_bytes(Storage storage, int channels, int width, int height) {
+  constexpr std::size_t side = 4;
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  if (is_block(storage)) return (w + side - 1) / side * ((h + side - 1) / side) * channel_bytes(storage);
+  return w * h * static_cast<std::size_t>(channels) * channel_bytes(storage);
 }
 
 Storage parse_storage(std::string_view word) { return word_value(storages, word, "storage", "storage"); }
 
 std::size_t byte_count(const PrefilteredTexture& texture) {
-  const std::size_t texel_bytes = channel_bytes(texture.storage) * static_cast<std::size_t>(texture.channels) *
-                                  static_cast<std::size_t>(std::max(texture.layers, 1));
   std::size_t bytes = 0;
   for (const TextureLevel& level : texture.levels)
-    bytes += texel_bytes * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
-  return bytes;
+    bytes += level_bytes(texture.storage, texture.channels, level.width, level.height);
+  return bytes * static_cast<std::size_t>(std::max(texture.layers, 1));
 }
 
 std::size_t byte_count(const Prefiltered& prefiltered) {
@@ -220,8 +269,9 @@ Image decode_level(const PrefilteredTexture& texture, std::size_t index, int lay
     throw std::logic_error("texture " + texture.name + " is built on the GPU: there is nothing to decode");
   const TextureLevel& level = texture.levels.at(index);
   Image image(level.width, level.height, texture.channels);
-  const std::size_t layer_bytes = image.texels.size() * channel_bytes(texture.storage);
+  const std::size_t layer_bytes = level_bytes(texture.storage, texture.channels, level.width, level.height);
   const auto bytes = std::span(level.bytes).subspan(static_cast<std::size_t>(layer) * layer_bytes, layer_bytes);
+  if (is_block(texture.storage)) return decode_blocks(texture.storage, level.width, level.height, bytes);
   for (std::size_t i = 0; i < image.texels.size(); ++i) {
     switch (texture.storage) {
       case Storage::fp32:
@@ -238,6 +288,8 @@ Image decode_level(const PrefilteredTexture& texture, std::size_t index, int lay
       case Storage::unorm8:
         image.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
         break;
+      default:
+        break;  // blocks, above
     }
   }
   return image;

@@ -16,8 +16,21 @@
 
 namespace footprint {
 
-/// How a channel is stored on the GPU.
-enum class Storage { fp32, fp16, unorm8 };
+/// How texels are stored on the GPU: each channel by itself, or blocks of 4 x 4 texels.
+enum class Storage {
+  fp32,
+  fp16,
+  unorm8,
+  bc1,  ///< 3 channels, 8 bytes a block
+  bc4,  ///< 1 channel, 8 bytes a block
+  bc5   ///< 2 channels, 16 bytes a block
+};
+
+/// Whether a storage has blocks.
+[[nodiscard]] bool is_block(Storage storage);
+
+/// Whether it stores [0, 1] in steps of 1/255 or more.
+[[nodiscard]] inline bool is_coarse(Storage storage) { return storage == Storage::unorm8 || is_block(storage); }
 
 [[nodiscard]] std::string_view storage_name(Storage storage);
 
@@ -32,8 +45,11 @@ enum class TextureFilter {
   by_level,   ///< by the program's state, but isotropic: OpenGL does not define anisotropy for explicit levels
 };
 
-/// Bytes of a channel.
+/// Bytes of a channel, and of a whole block.
 [[nodiscard]] std::size_t channel_bytes(Storage storage);
+
+/// Bytes of one layer of a level. Blocks at its edges are whole.
+[[nodiscard]] std::size_t level_bytes(Storage storage, int channels, int width, int height);
 
 /// One level of a texture, encoded in the texture's storage: layer after layer, rows from v = 0.
 struct TextureLevel {
@@ -94,9 +110,9 @@ void free_texels(PrefilteredTexture& texture);
 /// without maps.
 [[nodiscard]] std::size_t finest_texels(const Prefiltered& prefiltered);
 
-/// Encodes a mip chain; fp16 and unorm8 round to nearest, and fp16 clamps to +-65504.
+/// Encodes a mip chain; fp16 and unorm8 round to nearest, fp16 clamps to +-65504, and blocks are those of libsquish.
 /// chain: finite values. Each level is freed once it is encoded, so move the chain in.
-/// signed_range: unorm8 maps [-1, 1], for normals, instead of [0, 1] to 0..255.
+/// signed_range: unorm8 and blocks map [-1, 1], for normals, instead of [0, 1] to 0..255.
 /// Throws Error (machine): the encoded level does not fit in memory.
 [[nodiscard]] PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Storage storage,
                                               const TextureCoordinates& coordinates, bool signed_range = false);

@@ -11,6 +11,7 @@
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
+#include "renderer/bake/slope_moments.hpp"
 #include "renderer/baked_files/bumpslopes.hpp"
 #include "renderer/baked_files/ktx2.hpp"
 #include "renderer/core/error.hpp"
@@ -122,11 +123,16 @@ EngineMaps engine_maps(const BakedMethod& baked, const Material& material) {
     return {.textures = {}, .missing = error.message()};
   }
   if (!rough) return {};
-  const TextureCoordinates coordinates = normal_coordinates(material);
-  return {.textures = {make_texture("engine_normal", unit_normals(mean_normal_chain(material)), Storage::unorm8,
-                                    coordinates, true),
-                       make_texture("engine_roughness", *rough, Storage::unorm8, coordinates)},
-          .missing = {}};
+  EngineMaps maps;
+  const auto add = [&](const char* name, std::vector<Image> chain, bool signed_range = false) {
+    maps.textures.push_back(
+        make_texture(name, std::move(chain), Storage::unorm8, normal_coordinates(material), signed_range));
+  };
+  const bool has_direction = rough->front().channels > 1;
+  add("engine_normal", unit_normals(mean_normal_chain(material)), true);
+  add("engine_roughness", has_direction ? channels_of(*rough, {3}) : *rough);
+  if (has_direction) add("engine_anisotropy", channels_of(*rough, {0, 1, 2}));
+  return maps;
 }
 
 ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level) {
@@ -137,11 +143,14 @@ ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int
   ReplacedMaps replaced{.material = material.name,
                         .normal = {},
                         .rough_metallic = {},
+                        .anisotropy = {},
                         .metallic_in_map = metallic_map(material) != nullptr};
   for (std::size_t l = at; l < normal.levels.size(); ++l) replaced.normal.push_back(decode_level(normal, l));
   const std::vector<Image> metallic = mip_chain(metallic_map_of(material));
   for (std::size_t l = at + finer; l < rough.levels.size(); ++l)
     replaced.rough_metallic.push_back(joined(decode_level(rough, l), metallic, replaced.metallic_in_map));
+  for (std::size_t l = at + finer; maps.textures.size() > 2 && l < rough.levels.size(); ++l)
+    replaced.anisotropy.push_back(decode_level(maps.textures[2], l));
   return replaced;
 }
 

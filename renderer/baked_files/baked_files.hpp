@@ -16,7 +16,8 @@ namespace footprint {
 
 /// Maps in the form that engines import, of one material.
 struct EngineMaps {
-  std::vector<PrefilteredTexture> textures;  ///< `engine_normal` and `engine_roughness`, 8 bits; or empty
+  std::vector<PrefilteredTexture> textures;  ///< `engine_normal`, `engine_roughness` and, if it has a direction,
+                                             ///< `engine_anisotropy`, 8 bits; or empty
   std::string missing;                       ///< the reason, if the method has such maps but not for this material
 };
 

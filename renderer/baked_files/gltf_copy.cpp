@@ -147,6 +147,12 @@ void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, 
   const std::size_t rough_texture =
       add_texture(document, stem + ".metallic_roughness", maps.rough_metallic, sampler, folder);
   Json& material = material_called(document, maps.material, source);
+  if (!maps.anisotropy.empty()) {
+    const std::size_t texture = add_texture(document, stem + ".anisotropy", maps.anisotropy, sampler, folder);
+    use_extension(document, "KHR_materials_anisotropy");
+    material["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 1.0},
+                                                          {"anisotropyTexture", looked_up_as(normal, texture)}};
+  }
   material["normalTexture"] = looked_up_as(normal, normal_texture);
   Json& surface = material["pbrMetallicRoughness"];
   surface["metallicRoughnessTexture"] = looked_up_as(normal, rough_texture);

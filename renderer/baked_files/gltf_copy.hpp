@@ -15,6 +15,7 @@ struct ReplacedMaps {
   std::string material;               ///< as the loader calls it: its name, or "material N"
   std::vector<Image> normal;          ///< (n + 1) / 2
   std::vector<Image> rough_metallic;  ///< 1, perceptual roughness, metallic; looked up as the normal map is
+  std::vector<Image> anisotropy;      ///< KHR_materials_anisotropy's direction (d + 1) / 2 and strength; or empty
   bool metallic_in_map = false;       ///< else the metallic factor stays
 };
 

@@ -58,6 +58,7 @@ ReplacedMaps smaller_maps(bool metallic_in_map) {
   return {.material = "bumpy",
           .normal = {encoded(random_normals(4, 4, 0.3F, 2)), Image(2, 2, 3, 0.2F), Image(1, 1, 3, 0.4F)},
           .rough_metallic = {rough, Image(2, 2, 3, 0.6F), Image(1, 1, 3, 0.8F)},
+          .anisotropy = {Image(2, 2, 3, 0.3F), Image(1, 1, 3, 0.7F)},
           .metallic_in_map = metallic_in_map};
 }
 
@@ -156,12 +157,16 @@ TEST(GltfCopy, RefersToTheWholeChains) {
   const std::string name = write_gltf_copy(bumpy().write(), std::span(&maps, 1), folder);
   std::ifstream stream(folder / name);
   const auto json = nlohmann::json::parse(std::string(std::istreambuf_iterator<char>(stream), {}));
-  EXPECT_EQ(json["extensionsUsed"], nlohmann::json({"KHR_texture_transform", "MSFT_texture_dds"}));
+  EXPECT_EQ(json["extensionsUsed"],
+            nlohmann::json({"KHR_texture_transform", "MSFT_texture_dds", "KHR_materials_anisotropy"}));
   EXPECT_FALSE(json.contains("extensionsRequired"));  // a reader without it takes the PNG
   const auto& material = json["materials"][0];
   expect_chain(folder, json, material["normalTexture"]["index"], maps.normal);
   expect_chain(folder, json, material["pbrMetallicRoughness"]["metallicRoughnessTexture"]["index"],
                maps.rough_metallic);
+  const auto& anisotropy = material["extensions"]["KHR_materials_anisotropy"];
+  EXPECT_EQ(anisotropy["anisotropyStrength"], 1.0);
+  expect_chain(folder, json, anisotropy["anisotropyTexture"]["index"], maps.anisotropy);
 }
 
 TEST(GltfCopy, RefusesMaterialsThatStoreGlossiness) {

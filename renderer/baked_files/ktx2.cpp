@@ -37,14 +37,39 @@ class Bytes {
   std::vector<std::uint8_t> bytes_;
 };
 
+// Of a texel, or of a block.
 std::size_t texel_size(const PrefilteredTexture& texture) {
-  return channel_bytes(texture.storage) * static_cast<std::size_t>(texture.channels);
+  return level_bytes(texture.storage, texture.channels, 1, 1);
+}
+
+// KDFS 1.3, section 5.6: the descriptor of blocks. BC5 has two samples of 64 bits, the others one.
+std::vector<std::uint8_t> block_descriptor(const PrefilteredTexture& texture) {
+  constexpr std::uint32_t model_bc1 = 128, model_bc4 = 131, model_bc5 = 132;
+  const Storage storage = texture.storage;
+  const std::uint32_t samples = storage == Storage::bc5 ? 2 : 1, block_size = 24 + 16 * samples;
+  const std::uint32_t model = storage == Storage::bc1 ? model_bc1 : storage == Storage::bc4 ? model_bc4 : model_bc5;
+  Bytes out;
+  out.word(4 + block_size);
+  out.word(0);
+  out.word(block_version | block_size << 16);
+  out.word(model | primaries_unspecified << 8 | transfer_linear << 16);
+  out.word(3 | 3 << 8);  // texel blocks of 4 x 4 x 1 x 1
+  out.word(static_cast<std::uint32_t>(texel_size(texture)));
+  out.word(0);
+  for (std::uint32_t c = 0; c < samples; ++c) {
+    out.word(c * 64 | 63 << 16 | c << 24);
+    out.word(0);
+    out.word(0);
+    out.word(0xFFFFFFFF);
+  }
+  return out.take();
 }
 
 std::size_t rounded_up(std::size_t size, std::size_t step) { return (size + step - 1) / step * step; }
 
 // KDFS 1.3, section 5: one block, one sample per channel.
 std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
+  if (is_block(texture.storage)) return block_descriptor(texture);
   const bool is_float = texture.storage != Storage::unorm8;
   const auto bits = static_cast<std::uint32_t>(8 * channel_bytes(texture.storage));
   const auto channels = static_cast<std::uint32_t>(texture.channels);
@@ -93,6 +118,9 @@ std::vector<std::size_t> level_offsets(const PrefilteredTexture& texture, std::s
 }  // namespace
 
 std::uint32_t vk_format(Storage storage, int channels) {
+  if (storage == Storage::bc1) return 131;  // VK_FORMAT_BC1_RGB_UNORM_BLOCK
+  if (storage == Storage::bc4) return 139;  // VK_FORMAT_BC4_UNORM_BLOCK
+  if (storage == Storage::bc5) return 141;  // VK_FORMAT_BC5_UNORM_BLOCK
   constexpr std::array<std::array<std::uint32_t, 4>, 3> formats{{
       {100, 103, 106, 109},  // VK_FORMAT_R32_SFLOAT, R32G32, R32G32B32, R32G32B32A32
       {76, 83, 90, 97},      // VK_FORMAT_R16_SFLOAT, ...
@@ -110,7 +138,8 @@ std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
   Bytes out;
   out.block({identifier.begin(), identifier.end()});
   out.word(vk_format(texture.storage, texture.channels));
-  out.word(static_cast<std::uint32_t>(channel_bytes(texture.storage)));  // typeSize: the unit of byte order
+  const std::size_t type_size = is_block(texture.storage) ? 1 : channel_bytes(texture.storage);
+  out.word(static_cast<std::uint32_t>(type_size));  // the unit of byte order
   out.word(static_cast<std::uint32_t>(texture.levels.front().width));
   out.word(static_cast<std::uint32_t>(texture.levels.front().height));
   out.word(0);  // no depth

@@ -9,7 +9,7 @@
 
 namespace footprint {
 
-/// The linear Vulkan format (VkFormat) of a storage with 1 to 4 channels.
+/// The linear Vulkan format (VkFormat) of a storage with 1 to 4 channels; a storage of blocks has its own number.
 [[nodiscard]] std::uint32_t vk_format(Storage storage, int channels);
 
 /// The file's bytes: header, level index, data format descriptor, the keys KTXorientation (`rd`: the first row is v =

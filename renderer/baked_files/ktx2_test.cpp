@@ -46,6 +46,26 @@ TEST(Ktx2, HoldsArraysLayerAfterLayer) {
     EXPECT_EQ(file.levels[level].bytes, texture.levels[level].bytes);
 }
 
+// KDFS 1.3, tables of BC1, BC4 and BC5: 4 x 4 texels, 64 bits a sample, 0 to the largest word.
+TEST(Ktx2, DescribesBlocks) {
+  const auto descriptor = [](int channels, Storage storage) {
+    const PrefilteredTexture texture = make_texture("map", counted_chain(13, 6, channels), storage, {});
+    const Ktx2File file = read_ktx2(ktx2_bytes(texture));
+    EXPECT_EQ(file.type_size, 1U);
+    for (std::size_t level = 0; level < file.levels.size(); ++level)
+      EXPECT_EQ(file.levels[level].bytes, texture.levels[level].bytes);
+    return file.descriptor;
+  };
+  constexpr std::uint32_t most = 0xFFFFFFFF, bits = 63U << 16U;
+  EXPECT_EQ(descriptor(3, Storage::bc1),
+            (std::vector<std::uint32_t>{44, 0, 40U << 16U | 2, 128 | 1U << 16U, 0x303, 8, 0, bits, 0, 0, most}));
+  EXPECT_EQ(descriptor(1, Storage::bc4),
+            (std::vector<std::uint32_t>{44, 0, 40U << 16U | 2, 131 | 1U << 16U, 0x303, 8, 0, bits, 0, 0, most}));
+  EXPECT_EQ(descriptor(2, Storage::bc5),
+            (std::vector<std::uint32_t>{60, 0, 56U << 16U | 2, 132 | 1U << 16U, 0x303, 16, 0, bits, 0, 0, most,
+                                        64 | bits | 1U << 24U, 0, 0, most}));
+}
+
 // Numbers of vulkan_core.h.
 TEST(Ktx2, NamesVulkansFormats) {
   EXPECT_EQ(vk_format(Storage::unorm8, 4), 37U);  // VK_FORMAT_R8G8B8A8_UNORM
@@ -54,6 +74,9 @@ TEST(Ktx2, NamesVulkansFormats) {
   EXPECT_EQ(vk_format(Storage::fp16, 3), 90U);    // VK_FORMAT_R16G16B16_SFLOAT
   EXPECT_EQ(vk_format(Storage::fp32, 4), 109U);   // VK_FORMAT_R32G32B32A32_SFLOAT
   EXPECT_EQ(vk_format(Storage::fp32, 2), 103U);   // VK_FORMAT_R32G32_SFLOAT
+  EXPECT_EQ(vk_format(Storage::bc1, 3), 131U);    // VK_FORMAT_BC1_RGB_UNORM_BLOCK
+  EXPECT_EQ(vk_format(Storage::bc4, 1), 139U);    // VK_FORMAT_BC4_UNORM_BLOCK
+  EXPECT_EQ(vk_format(Storage::bc5, 2), 141U);    // VK_FORMAT_BC5_UNORM_BLOCK
 }
 
 TEST(Ktx2, DescribesItsTexels) {

@@ -170,6 +170,12 @@ void Texture::upload(int level, int width, int height, GLenum format, GLenum typ
   }
 }
 
+void Texture::upload_blocks(int level, int width, int height, GLenum internal_format,
+                            std::span<const std::uint8_t> blocks) {
+  api().CompressedTextureSubImage2D(name(), level, 0, 0, width, height, internal_format,
+                                    static_cast<GLsizei>(blocks.size()), blocks.data());
+}
+
 RenderTarget::RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth)
     : width_(width), height_(height) {
   if (color_formats.size() > max_attachments) throw std::logic_error("a render target has at most 5 attachments");

@@ -37,7 +37,13 @@ struct GlFormat {
   GLenum internal, format, type;
 };
 
+// The number is not in glcorearb.h: GL_EXT_texture_compression_s3tc.
+constexpr GLenum rgb_s3tc_dxt1 = 0x83F0;
+
 GlFormat gl_format(Storage storage, int channels) {
+  if (storage == Storage::bc1) return {rgb_s3tc_dxt1, GL_RGB, GL_UNSIGNED_BYTE};
+  if (storage == Storage::bc4) return {GL_COMPRESSED_RED_RGTC1, GL_RED, GL_UNSIGNED_BYTE};
+  if (storage == Storage::bc5) return {GL_COMPRESSED_RG_RGTC2, GL_RG, GL_UNSIGNED_BYTE};
   constexpr std::array<GLenum, 4> formats{GL_RED, GL_RG, GL_RGB, GL_RGBA};
   constexpr std::array<std::array<GLenum, 4>, 3> internals{{{GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F},
                                                             {GL_R16F, GL_RG16F, GL_RGB16F, GL_RGBA16F},
@@ -227,7 +233,11 @@ gl::Texture upload_texels(const PrefilteredTexture& texture) {
                   texture.layers);
   for (std::size_t i = 0; i < texture.levels.size() && !texture.built; ++i) {
     const TextureLevel& level = texture.levels[i];
-    out.upload(static_cast<int>(i), level.width, level.height, format.format, format.type, level.bytes.data());
+    if (is_block(texture.storage)) {
+      out.upload_blocks(static_cast<int>(i), level.width, level.height, format.internal, level.bytes);
+    } else {
+      out.upload(static_cast<int>(i), level.width, level.height, format.format, format.type, level.bytes.data());
+    }
   }
   return out;
 }

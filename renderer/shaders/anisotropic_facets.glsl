@@ -1,7 +1,7 @@
 // Facets whose lobe is wider along one direction of their tangent plane. The direction turns with the facet's normal, by
 // the shortest rotation from the surface's (docs/base-brdf.md).
 
-//? include facet_frame.glsl
+//? include anisotropic_widths.glsl
 
 // Alpha along and across the direction, of the base lobe whose round mean has the parameter `lobe`.
 //? if roughness_variation
@@ -17,17 +17,8 @@ vec2 facetAlphas(float lobe) {
 vec2 facetAlphas(float lobe) { return anisotropy().xy; }
 //? end
 
-// From the frame of a facet to the axes along and across the direction.
-vec2 alongDirection(vec2 own) {
-  vec2 d = anisotropy().zw;
-  return vec2(dot(d, own), d.x * own.y - d.y * own.x);
-}
-
-// The symmetric matrix with `along` and `across` in those axes.
-mat2 inFacetAxes(float along, float across) {
-  vec2 d = anisotropy().zw;
-  return mat2(across) + (along - across) * outerProduct(d, d);
-}
+// The symmetric matrix with `along` and `across` in the axes of the direction.
+mat2 inFacetAxes(float along, float across) { return inAxes(along, across, anisotropy().zw); }
 
 // w^T A w of a direction's tangential part w in the facet's frame is (alpha sin)^2, alpha the lobe's towards w.
 mat2 squaredWidths(float lobe) {
@@ -35,46 +26,7 @@ mat2 squaredWidths(float lobe) {
   return inFacetAxes(alphas.x * alphas.x, alphas.y * alphas.y);
 }
 
-// Density over solid angle (Heitz 2014, section 5).
-float baseDensity(float lobe, vec3 n, vec3 h) {
-  countLobes(1);
-  vec2 alphas = facetAlphas(lobe);
-  vec3 own = inFacetFrame(h, n);
-  vec2 stretched = alongDirection(own.xy) / alphas;
-//? if distribution_ggx
-  if (own.z <= 0.0) return 0.0;
-  float d = dot(stretched, stretched) + own.z * own.z;
-  return 1.0 / (pi * alphas.x * alphas.y * d * d);
-//? else
-  if (own.z <= 1e-3) return 0.0;  // tan overflows, and the exponential has long been zero
-  float c2 = own.z * own.z;
-  return exp(-dot(stretched, stretched) / c2) / (pi * alphas.x * alphas.y * c2 * c2);
-//? end
-}
-
-// The geometry factor of facets about n. Smith's uses the width of the lobe towards each direction (Heitz 2014, section
-// 5); the other terms do not depend on it.
-//? if masking_shadowing and geometry_smith
-float stretchedGeometry(mat2 widths, float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
-  float nl = dot(n, wi);
-  if (nl <= 0.0) return 0.0;
-  float nv = max(dot(n, wo), 1e-4);
-  vec2 to_light = inFacetFrame(wi, n).xy;
-  vec2 to_viewer = inFacetFrame(wo, n).xy;
-  float light = max(dot(to_light, widths * to_light), 1e-12);
-  float viewer = max(dot(to_viewer, widths * to_viewer), 1e-12);
-//? if distribution_ggx
-  float masked = nl * sqrt(viewer + nv * nv) + nv * sqrt(light + nl * nl);
-  return 0.5 * nl / max(masked, 1e-12);
-//? else
-  return 0.25 / ((1.0 + beckmannLambda(nv * inversesqrt(viewer)) + beckmannLambda(nl * inversesqrt(light))) * nv);
-//? end
-}
-//? else
-float stretchedGeometry(mat2 widths, float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe, n, h, wi, wo);
-}
-//? end
+float baseDensity(float lobe, vec3 n, vec3 h) { return stretchedDensity(facetAlphas(lobe), anisotropy().zw, n, h); }
 
 float baseGeometry(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
   return stretchedGeometry(squaredWidths(lobe), lobe, n, h, wi, wo);

@@ -9,15 +9,18 @@
 // For 16 bits, half a unit in the last place. The loss of 8 bits is too large to correct.
 //? if storage_fp16
 const float length_rounding = 1.0 / 2048.0;
-//? elif storage_unorm8
+//? elif storage_unorm8 or storage_bc1 or storage_bc5
 const float length_rounding = 0.0;
 //? else
 const float length_rounding = rounding_of_floats;
 //? end
 
 vec4 storedMeanNormal(vec3 mean) {
-//? if storage_unorm8
+//? if storage_unorm8 or storage_bc1 or storage_bc5
   mean = 2.0 * mean - 1.0;
+//? end
+//? if storage_bc5
+  mean.z = sqrt(max(1.0 - dot(mean.xy, mean.xy), 0.0));  // of unit normals, of which only x and y are stored
 //? end
   float size = length(mean);
   return vec4(size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0), 1.0 - shortfallOfLength(size, length_rounding));

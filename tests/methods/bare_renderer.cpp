@@ -119,6 +119,17 @@ gl::Texture texture_from_ktx2(const Json& texture, const fs::path& folder) {
                                           {16, GL_RG8, GL_UNSIGNED_BYTE, 2},
                                           {23, GL_RGB8, GL_UNSIGNED_BYTE, 3},
                                           {37, GL_RGBA8, GL_UNSIGNED_BYTE, 4}}};
+  constexpr std::array<std::pair<std::uint32_t, GLenum>, 3> blocks{
+      {{131, 0x83F0}, {139, GL_COMPRESSED_RED_RGTC1}, {141, GL_COMPRESSED_RG_RGTC2}}};
+  for (const auto& [vulkan, internal] : blocks) {
+    if (vulkan != file.vk_format) continue;
+    gl::Texture out(internal, static_cast<int>(file.width), static_cast<int>(file.height),
+                    static_cast<int>(file.levels.size()));
+    for (std::size_t level = 0; level < file.levels.size(); ++level)
+      out.upload_blocks(static_cast<int>(level), static_cast<int>(file.levels[level].width),
+                        static_cast<int>(file.levels[level].height), internal, file.levels[level].bytes);
+    return out;
+  }
   const auto* format = std::ranges::find(known, file.vk_format, &Format::vulkan);
   gl::Texture out(format->internal, static_cast<int>(file.width), static_cast<int>(file.height),
                   static_cast<int>(file.levels.size()), static_cast<int>(file.layers));

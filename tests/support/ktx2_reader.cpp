@@ -66,7 +66,13 @@ std::vector<std::uint32_t> read_descriptor(const Source& source, std::uint64_t a
   return words;
 }
 
+// KDFS 5.5, texelBlockDimension: width and height of a block, minus 1; bytesPlane0: its bytes.
 std::uint64_t texel_bytes(const std::vector<std::uint32_t>& descriptor) { return descriptor[5] & 0xFFU; }
+
+std::uint64_t block_count(const std::vector<std::uint32_t>& descriptor, std::uint32_t width, std::uint32_t height) {
+  const std::uint32_t w = (descriptor[4] & 0xFFU) + 1, h = (descriptor[4] >> 8U & 0xFFU) + 1;
+  return std::uint64_t{(width + w - 1) / w} * ((height + h - 1) / h);
+}
 
 // Section 3.9.7, mipPadding: a level begins at a multiple of lcm(texel block size, 4); the coarsest comes first.
 std::vector<Ktx2Level> read_levels(const Source& source, const Ktx2File& file, std::uint32_t count,
@@ -79,7 +85,8 @@ std::vector<Ktx2Level> read_levels(const Source& source, const Ktx2File& file, s
     levels[level].width = std::max(file.width >> level, 1U);
     levels[level].height = std::max(file.height >> level, 1U);
     require(source.at(entry + 16, 8) == length, "without supercompression both lengths are the same");
-    require(length == texel * levels[level].width * levels[level].height * std::max(file.layers, 1U),
+    require(length == texel * block_count(file.descriptor, levels[level].width, levels[level].height) *
+                          std::max(file.layers, 1U),
             "a level has all of its texels");
     require(offset % std::lcm(texel, std::uint64_t{4}) == 0, "a level begins where its alignment allows");
     require(offset >= first_free && offset - first_free < std::lcm(texel, std::uint64_t{4}),

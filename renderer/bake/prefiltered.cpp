@@ -54,13 +54,48 @@ void encode_blocks(const Image& image, Storage storage, bool signed_range, std::
   squish::CompressImage(texels.data(), image.width, image.height, out, squish_format(storage));
 }
 
-Image decode_blocks(Storage storage, int width, int height, std::span<const std::uint8_t> bytes) {
+// The 16 values of a block of one channel (Direct3D 11 functional specification, 19.5.14), because libsquish 1.15
+// encodes these blocks rightly and decodes them wrongly.
+std::array<float, 16> decoded_channel(std::span<const std::uint8_t> block) {
+  std::array<float, 8> ramp{static_cast<float>(block[0]), static_cast<float>(block[1]), 0, 0, 0, 0, 0, 255.0F};
+  const bool is_long = block[0] > block[1];
+  const int steps = is_long ? 7 : 5;
+  for (int k = 1; k < steps; ++k)
+    ramp.at(static_cast<std::size_t>(k + 1)) =
+        (static_cast<float>(steps - k) * ramp[0] + static_cast<float>(k) * ramp[1]) / static_cast<float>(steps);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < 6; ++i) bits |= std::uint64_t{block[2 + i]} << (8 * i);
+  std::array<float, 16> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) values.at(i) = ramp.at(bits >> (3 * i) & 7U) / 255.0F;
+  return values;
+}
+
+Image decode_channels(Storage storage, int width, int height, std::span<const std::uint8_t> bytes) {
+  constexpr int side = 4;
+  constexpr std::size_t channel_block = 8;
   Image image(width, height, block_channels(storage));
-  const auto channels = static_cast<std::size_t>(image.channels);
+  for (int y = 0; y < height; y += side) {
+    for (int x = 0; x < width; x += side) {
+      for (std::size_t c = 0; c < static_cast<std::size_t>(image.channels); ++c) {
+        const auto values = decoded_channel(bytes.first(channel_block));
+        bytes = bytes.subspan(channel_block);
+        for (int j = 0; j < side && y + j < height; ++j) {
+          for (int i = 0; i < side && x + i < width; ++i)
+            image.at(x + i, y + j)[c] = values.at(static_cast<std::size_t>(side * j + i));
+        }
+      }
+    }
+  }
+  return image;
+}
+
+Image decode_blocks(Storage storage, int width, int height, std::span<const std::uint8_t> bytes) {
+  if (storage != Storage::bc1) return decode_channels(storage, width, height, bytes);
+  Image image(width, height, 3);
   std::vector<std::uint8_t> texels(4 * image.texel_count());
-  squish::DecompressImage(texels.data(), width, height, bytes.data(), squish_format(storage));
+  squish::DecompressImage(texels.data(), width, height, bytes.data(), squish::kDxt1);
   for (std::size_t i = 0; i < image.texels.size(); ++i)
-    image.texels[i] = static_cast<float>(texels[i / channels * 4 + i % channels]) / 255.0F;
+    image.texels[i] = static_cast<float>(texels[i / 3 * 4 + i % 3]) / 255.0F;
   return image;
 }
 

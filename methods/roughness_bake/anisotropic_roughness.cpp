@@ -30,7 +30,7 @@ DirectedRoughness lobe_at(const Material& material, const Image& moments, const 
 void require_two_widths(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
   if (distribution == NormalDistribution::ggx || distribution == NormalDistribution::beckmann) return;
-  throw Error(ErrorKind::usage, "material " + material.name, "its lobe has one width, whatever the direction",
+  throw Error(ErrorKind::usage, "anisotropic=on", "the lobe of the base BRDF has one width, whatever the direction",
               "use anisotropic=off, or a scene with GGX or Beckmann");
 }
 

@@ -75,6 +75,16 @@ const std::vector<Case> bakes_for_engines{
      .files = {{"quad.gltf", make_bumpy_quad().text()}, {"bumps.png", bumps_png()}},
      .leaves = {"maps/gltf/quad.gltf", "maps/gltf/bumpy.normal.png", "maps/gltf/bumpy.metallic_roughness.png",
                 "maps/maps/bumpy/engine_roughness.mip1.png"}},
+    {.name = "BakeWithADirectionIntoACopy",
+     .arguments = {"bake", "{}/quad.gltf", "--method", "roughness_bake:anisotropic=on", "--gltf", "-o", "{}/maps"},
+     .output_has = {"engine_anisotropy", "glTF: "},
+     .files = {{"quad.gltf", make_bumpy_quad().text()}, {"bumps.png", bumps_png()}},
+     .leaves = {"maps/gltf/quad.gltf", "maps/gltf/bumpy.anisotropy.png", "maps/gltf/bumpy.anisotropy.dds",
+                "maps/gltf/bumpy.anisotropy.ktx2", "maps/gltf/bumpy.normal.ktx2"}},
+    {.name = "BakeInBlocks",
+     .arguments = {"bake", "v_grooves", "--method", "roughness_bake:storage=bc5", "-o", "{}/maps"},
+     .output_has = {"2 x bc5"},
+     .leaves = {"maps/maps/v_grooves/mean_normal.ktx2"}},
 };
 
 std::vector<Case> wrong_bakes() {
@@ -108,6 +118,8 @@ std::vector<Case> wrong_bakes() {
           {"xu_vmf:space=camera", "builds its maps for each view", "serve every view"}),
       nothing,
       row("BakeAMissingScene", {"{}/missing.gltf", "--method", "toksvig"}, {"missing.gltf"}),
+      row("BakeADirectionOfALobeWithoutOne", {"v_grooves", "--method", "roughness_bake:anisotropic=on"},
+          {"anisotropic=on", "one width", "anisotropic=off"}),
       row("CopyOfNoGltf", {"v_grooves", "--method", "roughness_bake", "--gltf"},
           {"--gltf", "v_grooves", "not a glTF file"}),
       row("LevelWithoutACopy", {"v_grooves", "--method", "roughness_bake", "--gltf-level", "2"}, {"--gltf"}),

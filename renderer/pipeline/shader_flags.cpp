@@ -138,8 +138,6 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
                 std::ranges::any_of(prefiltered.textures, [](const auto& t) { return t.layers > 0; }));
   flags.emplace("texel_lookups", std::ranges::any_of(prefiltered.textures,
                                                      [](const auto& t) { return t.filter == TextureFilter::nearest; }));
-  // Shared texts know these storages, of which most methods offer none.
-  for (const char* name : {"storage_bc1", "storage_bc5"}) flags.emplace(name, false);
   for (const OptionSpec& option : options.specs()) {
     for (const std::string& choice : option.choices) {
       const std::string flag = option.shader_name() + "_" + choice;
@@ -151,6 +149,8 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
       flags[flag] = options.word(option.name) == choice;
     }
   }
+  // Shared texts know these storages, of which most methods offer none.
+  for (const char* name : {"storage_bc1", "storage_bc5"}) flags.emplace(name, false);
   return flags;
 }
 

@@ -52,6 +52,11 @@ class Documents(unittest.TestCase):
         lines = self.lines_of(**{"docs/new.md": "# New\n"})
         self.assertEqual(lines, (1, ["docs/README.md:1: new.md is not in the map"]))
 
+    def test_a_picture_without_a_command_is_reported(self):
+        listed = "| picture | command |\n|---|---|\n| `a.png` | `x` |\n| `gone/*.png` | `y` |\n"
+        lines = self.lines_of(**{"docs/images/README.md": listed, "docs/images/a.png": "", "docs/images/b.png": ""})
+        self.assertEqual(lines, (1, ["docs/images/README.md:1: no command makes b.png", "docs/images/README.md:1: there is no gone/*.png"]))
+
     def test_versions_that_differ_are_reported(self):
         code, lines = self.lines_of(**{"CITATION.cff": "version: 1.2.2\n", "CHANGELOG.md": "# Changes\n"})
         self.assertEqual(code, 1)

@@ -1,10 +1,13 @@
 // Compiles by glslang in this process, with the OpenGL bindings moved to where Vulkan's do not collide.
 #include "renderer/languages/spirv.hpp"
 
+#include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+
 #include <glslang/SPIRV/spirv.hpp>
+#include <regex>
 
 #include "renderer/core/error.hpp"
 
@@ -52,6 +55,20 @@ void request_unrolling(Spirv& code) {
   }
 }
 
+// Binds the textures, in their order, from 1. glslang's own choice may give one the binding of the block, which is 0.
+std::string with_bound_textures(const std::string& text) {
+  static const std::regex declaration(R"(\nuniform sampler)");
+  std::string out;
+  int binding = 0;
+  auto at = text.begin();
+  for (std::sregex_iterator found(text.begin(), text.end(), declaration), end; found != end; ++found) {
+    out.append(at, (*found)[0].first);
+    out += fmt::format("\nlayout(binding = {}) uniform sampler", ++binding);
+    at = (*found)[0].second;
+  }
+  return out.append(at, text.end());
+}
+
 void link(glslang::TProgram& program, const std::string& name) {
   if (!program.link(messages) || !program.mapIO()) throw invalid(name, program.getInfoLog());
 }
@@ -83,7 +100,8 @@ SpirvProgram spirv_program(const std::string& name, const std::string& vertex, c
 Spirv fragment_spirv(const std::string& name, const std::string& text) {
   start_glslang();
   glslang::TShader stage(EShLangFragment);
-  parse(stage, EShLangFragment, name, text, {});
+  const std::string bound = with_bound_textures(text);
+  parse(stage, EShLangFragment, name, bound, {});
   glslang::TProgram program;
   program.addShader(&stage);
   link(program, name);

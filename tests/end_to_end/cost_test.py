@@ -152,11 +152,12 @@ class Costs(WholeRunTest):
     def program_with(self, shader, old, new):
         """A copy of the program in which the text of a shader has `new` for `old`, in place of its first comment."""
         text = (SOURCE / shader).read_bytes()
-        changed = text.partition(b"//?")[2].replace(old, new)
+        head = text[:text.find(b"*/\n") + 3] if text.startswith(b"/*") else b""
+        changed = text[len(head):].partition(b"//?")[2].replace(old, new)
         self.assertIn(new, changed)
         self.assertEqual(PROGRAM_BYTES.count(text), 1)
         path = self.folder / "program"
-        path.write_bytes(PROGRAM_BYTES.replace(text, (b"//?" + changed).ljust(len(text))))
+        path.write_bytes(PROGRAM_BYTES.replace(text, (head + b"//?" + changed).ljust(len(text))))
         path.chmod(0o755)
         return path
 

@@ -133,7 +133,7 @@ def command_fault(command):
 def documents():
     names = subprocess.run(["git", "-C", SOURCE, "ls-files", "*.md"], capture_output=True, text=True, check=False).stdout
     files = [SOURCE / name for name in names.split("\n") if name] or sorted(SOURCE.rglob("*.md"))
-    return [file for file in files if file.name not in ("CHANGELOG.md", "reproduction.md")]
+    return [file for file in files if file.name not in ("CHANGELOG.md", "reproduction.md") and file.parent.name != "reproduction"]
 
 
 def faults_of(name, text, run_examples):

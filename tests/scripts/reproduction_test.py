@@ -87,11 +87,11 @@ class Document(Tree):
         out = self.write(NAME, document)
         done = script("reproduction", out, self.folder / "docs")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.text = (self.folder / "docs/reproduction.md").read_text(encoding="utf-8")
+        self.text = (self.folder / "docs/reproduction/tan2005.md").read_text(encoding="utf-8")
 
     def faults(self, text=None):
         if text is not None:
-            (self.folder / "docs/reproduction.md").write_text(text, encoding="utf-8")
+            (self.folder / "docs/reproduction/tan2005.md").write_text(text, encoding="utf-8")
         done = script("reproduction", "--check", self.folder / "docs")
         self.assertEqual(done.stderr, "")
         self.assertEqual(done.returncode, 1 if done.stdout else 0)
@@ -117,7 +117,7 @@ class Document(Tree):
                          [f"{NAME}: the claim {name} is not what its file says"])
         self.assertEqual(self.faults(self.text.replace(row, row + "\n" + row.replace(name, "another"))),
                          [MISCOUNTED, f"{NAME}: the document has {claims + 1} claims, its file {claims}"])
-        self.assertEqual(self.faults(self.text.replace(f"#### `{NAME}`", "#### gone")), [f"{NAME}: is not in the document"])
+        self.assertEqual(self.faults(self.text.replace(f"### `{NAME}`", "### gone")), [f"{NAME}: is not in the document"])
 
     def rewritten(self, change, **results_of_another):
         """The document after another run, of `tan2005_fig5`, into the same folder, whose file of NAME `change` changed."""
@@ -130,7 +130,7 @@ class Document(Tree):
         shutil.rmtree(self.folder / "out")
         out = self.write("tan2005_fig5", results(0.3, 0.4, **results_of_another))
         subprocess.run([copy / "scripts/reproduction", out, self.folder / "docs"], check=True)
-        return (self.folder / "docs/reproduction.md").read_text(encoding="utf-8")
+        return (self.folder / "docs/reproduction/tan2005.md").read_text(encoding="utf-8")
 
     def test_another_run_leaves_what_it_did_not_measure(self):
         text = self.rewritten(lambda content: content.replace('text = "', 'text = "Newly said: '))
@@ -141,7 +141,7 @@ class Document(Tree):
 
     def test_a_claim_on_a_printed_figure_is_judged_by_its_row(self):
         table = "| Figure 6 | `fps(tan_gmm)` | 9 fps | 2.5 fps | note |\n| Figure 6 | `precompute(tan_gmm)` | 300 s | n/a | note |"
-        page = self.folder / "docs/reproduction.md"
+        page = self.folder / "docs/reproduction/tan2005.md"
         page.write_text(self.text.replace("| claim |", f"{table}\n\n| claim |"), encoding="utf-8")
         wanted = ("fps(tan_gmm) >= 2.5", "fps(tan_gmm) > 2.5", "fps(tan_gmm) >= 9", "precompute(tan_gmm) <= 300", "fps(other) < 9")
         claims = "".join(f'[[claim]]\nname = "c{i}"\ntext = "t"\nsource = "ours"\ninequality = "{text}"\n'
@@ -163,10 +163,13 @@ class Document(Tree):
         self.assertIn("0.01 against 0.02 | reproduced; expected: not reproduced |", text)
 
     def test_claims_are_counted_by_their_source(self):
-        counted = next(line for line in self.text.splitlines() if line.startswith("| Tan et al. 2005: the paper's own |"))
+        main = self.folder / "docs/reproduction.md"
+        text = main.read_text(encoding="utf-8")
+        counted = next(line for line in text.splitlines() if line.startswith("| Tan et al. 2005: the paper's own |"))
         number, *outcomes = map(int, counted[2:-2].split(" | ")[1:])
         self.assertEqual((outcomes[:3], sum(outcomes)), ([1, 0, 0], number))
-        self.assertEqual(self.faults(self.text.replace(counted, counted.replace("| 1 |", "| 2 |"))),
+        main.write_text(text.replace(counted, counted.replace("| 1 |", "| 2 |")), encoding="utf-8")
+        self.assertEqual(self.faults(),
                          [MISCOUNTED])
         moved = self.text.replace("| paper | Interpolation of unaligned", "| ours | Interpolation of unaligned")
         self.assertIn(f"{NAME}: the claim aligned_under_unaligned is not what its file says", self.faults(moved))

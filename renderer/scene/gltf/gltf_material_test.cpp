@@ -157,7 +157,7 @@ TEST(Gltf, AnisotropyHasAStrengthARotationAndATexture) {
   // Axes across each other cancel: nothing is left that a single axis can represent.
   Image crossed = one_colour({255.0F, 127.5F, 255.0F});
   for (std::size_t i = 0; i < 6; ++i) crossed.texels[i] = std::array{127.5F / 255.0F, 1.0F, 1.0F}.at(i % 3);
-  const auto& none = textured(crossed).materials.at(0).anisotropy;
+  const auto none = textured(crossed).materials.at(0).anisotropy;
   EXPECT_LT(none ? none->strength : 0.0F, 0.06F);
 }
 

@@ -30,7 +30,7 @@ namespace {
 constexpr const char* bake_examples =
     "The output folder must be new or empty. It gets maps/MATERIAL/NAME.exr and .ktx2 with all mip levels (.png too "
     "with\n"
-    "storage=unorm8), METHOD.glsl that reads them, and manifest.json (docs/baking.md).\n"
+    "storage=unorm8), METHOD.glsl that reads them, and manifest.json (docs/guides/baking.md).\n"
     "\n"
     "For lean and leadr, SCENE may also be an EXR written by OpenImageIO's `maketx --bumpslopes`.\n"
     "\n"

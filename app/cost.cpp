@@ -19,7 +19,7 @@ namespace {
 constexpr const char* cost_examples =
     "Compiles each method's program with Mesa's compiler for AMD GPUs, which needs no GPU, and combines the "
     "instructions\n"
-    "with the loop counts of the frame and the published rates of each chip. It is an estimate (docs/gpu-cost.md).\n"
+    "with the loop counts of the frame and the published rates of each chip (docs/explanation/gpu-cost.md).\n"
     "\n"
     "Examples:\n"
     "  footprint cost model.gltf\n"

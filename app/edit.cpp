@@ -19,10 +19,9 @@ namespace footprint {
 namespace {
 
 constexpr const char* edit_examples =
-    "KIND.PARAMETER is a parameter of the scene's [microgeometry] (docs/scenes.md) or brdf.PARAMETER: roughness,\n"
-    "exponent, alpha, kappa, specular, metallic, or measured with two MERL files. The folder gets images/METHOD_NNNN "
-    "(.exr and .png), edit.json, edit.csv and "
-    "table.md.\n"
+    "KIND.PARAMETER is a parameter of the scene's [microgeometry] (docs/reference/scenes.md) or brdf.PARAMETER:\n"
+    "roughness, exponent, alpha, kappa, specular, metallic, or measured with two MERL files. The folder gets\n"
+    "images/METHOD_NNNN (.exr and .png), edit.json, edit.csv and table.md.\n"
     "\n"
     "Examples:\n"
     "  footprint edit woven_cloth --set weave.warp_width=0.1:0.5 --frames 10 -o out\n"

@@ -32,7 +32,7 @@ constexpr const char* list_examples =
     "Examples:\n"
     "  footprint list                               everything\n"
     "  footprint list methods                       the methods and their options\n"
-    "  footprint list ./mine.glsl                   a method in a file (docs/method-files.md)\n"
+    "  footprint list ./mine.glsl                   a method in a file (docs/guides/method-files.md)\n"
     "  footprint list scenes --json                 for programs";
 
 constexpr const char* info_examples =

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* merge_words =
     "Each PART is the output folder of `footprint run EXPERIMENT --shard I/N` or `footprint animate ... --shard I/N`.\n"
     "All N parts must come from the same experiment and program. The report equals that of a single run; nothing is\n"
-    "measured again. Times name the machine that took them (docs/cluster.md).\n"
+    "measured again. Times name the machine that took them (docs/guides/cluster.md).\n"
     "\n"
     "Examples:\n"
     "  footprint merge parts/1 parts/2 -o out\n"

@@ -1,4 +1,4 @@
-// part.json: the description of a part of a run (docs/cluster.md).
+// part.json: the description of a part of a run (docs/guides/cluster.md).
 #pragma once
 
 #include <filesystem>

@@ -35,7 +35,7 @@ namespace {
 
 constexpr const char* experiment_words =
     "EXPERIMENT is a name of `footprint list experiments`, or a path to a TOML file or a folder of them\n"
-    "(docs/experiments.md).\n"
+    "(docs/reference/experiments.md).\n"
     "\n";
 
 constexpr const char* run_examples =
@@ -54,7 +54,7 @@ constexpr const char* check_examples =
     "\n"
     "Examples:\n"
     "  footprint check quick -o out                 every method, in seconds\n"
-    "  footprint check hard_cases -o out            numerical stress tests (docs/stability.md)\n"
+    "  footprint check hard_cases -o out            numerical stress tests (docs/results/stability.md)\n"
     "  footprint check experiments/tan2005_fig4.toml -o out\n"
     "  footprint check quick -o out --junit out/junit.xml --github\n"
     "  footprint check quick -o out --baseline quick.json --update-baseline    first run; later without "

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* shader_examples =
     "glsl is the module that `footprint bake` writes: functions for a fragment shader. The other languages are "
     "translated\n"
-    "from it, with an entry point for one lamp and their inputs listed in the first lines (docs/baking.md).\n"
+    "from it, with an entry point for one lamp and their inputs listed in the first lines (docs/guides/baking.md).\n"
     "\n"
     "Examples:\n"
     "  footprint shader lean --language hlsl -o lean.hlsl\n"

@@ -78,7 +78,7 @@ std::optional<Scene> load_bench_scene(const std::string& name) {
   if (!name.empty()) return load_scene(name, library);
   if (std::filesystem::exists(FOOTPRINT_BENCH_MODEL)) {
     Scene scene = load_bench_model();
-    scene.shadows.cast = false;  // the bare shader has none: docs/performance.md gives their cost separately
+    scene.shadows.cast = false;  // the bare shader has none: performance.md gives their cost separately
     return scene;
   }
   (void)std::fprintf(stderr, "footprint_bench: no frames are timed: %s is not there (install assimp-testmodels)\n",

@@ -1,5 +1,5 @@
 // footprint_filter_kernels FILE.png: draws the kernels of the footprint filters over an even, a sheared and a grazing
-// footprint in one image, and prints the table of docs/filters.md.
+// footprint in one image, and prints the table of docs/reference/filters.md.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // footprint_bench: the time of frames, the reference, mixtures, edits of small-scale geometry and bakes
-// (docs/performance.md).
+// (docs/contributing/performance.md).
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // footprint_ndf_rank MAP...: how well any R functions of the half vector can represent the distributions of normals of
-// a map's texels, beside a method's own error in the same norm (docs/ndf-rank.md).
+// a map's texels, beside a method's own error in the same norm (docs/results/ndf-rank.md).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

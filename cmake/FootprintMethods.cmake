@@ -4,7 +4,7 @@
 #                      [LIBRARIES ...] [BAKE_TESTS extra ...]):
 # a prefiltering method in the folder NAME, or in the current folder where that contains NAME.cpp, with NAME.cpp (which
 # defines `const Method& NAME_method()`), its *.glsl (whose texts are footprint::NAME_glsl) and a test program
-# of its *_test.cpp. Without NAME.cpp the method is that of the head of NAME.glsl (docs/method-files.md). Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
+# of its *_test.cpp. Without NAME.cpp the method is that of the head of NAME.glsl (docs/guides/method-files.md). Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
 # names texts of other methods' folders that the module includes too, from the current folder on. STUDY names sources in
 # its folder study/, a library of their own that no picture needs; they define `std::span<const Quantity>
 # NAME_quantities()` (methods/quantities.hpp). BAKE_TESTS names tests of the precompute and of the study alone,

@@ -1,4 +1,4 @@
-// An experiment as a plain value: what its TOML says (docs/experiments.md).
+// An experiment as a plain value: what its TOML says (docs/reference/experiments.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Arithmetic over the figures of a run, and the inequalities that claims are made of (docs/experiments.md).
+// Arithmetic over the figures of a run, and the inequalities that claims are made of (docs/reference/experiments.md).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The functions that claims, thresholds and published figures call: one table for the parser, the check of an
-// experiment and the evaluation. A test compares it with the list in docs/experiments.md.
+// experiment and the evaluation. A test compares it with the list in docs/reference/experiments.md.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The table of functions against the list that docs/experiments.md prints.
+// The table of functions against the list that docs/reference/experiments.md prints.
 #include "experiments/runner/functions.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Words quoted(const std::string& text) {
 
 /// Each function of the document's list with its selectors.
 std::vector<std::pair<std::string, Words>> documented() {
-  std::ifstream document(testing::source_folder() / "docs/experiments.md");
+  std::ifstream document(testing::source_folder() / "docs/reference/experiments.md");
   std::vector<std::pair<std::string, Words>> list;
   std::string line;
   while (std::getline(document, line) && !line.starts_with("| function |")) continue;

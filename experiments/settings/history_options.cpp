@@ -36,7 +36,7 @@ const std::array<HistoryOption, 4>& history_options() {
       {.name = "history",
        .type = whole_number([](RunSettings& run) -> int& { return run.history.frames; }, 0, 1024),
        .help = "frames of the first view, or of each distance, that are accumulated before an image is shown; later "
-               "frames of a path are added to them (docs/temporal.md); 0: no history"},
+               "frames of a path are added to them (docs/explanation/temporal.md); 0: no history"},
       {.name = "history_alpha",
        .type = positive_number([](RunSettings& run) -> double& { return run.history.alpha; }, 0.001, 1),
        .help = "share of the newest frame in a history"},

@@ -40,7 +40,7 @@ struct Setting {
 };
 
 /// The document that explains an experiment's file.
-inline constexpr std::string_view experiments_document = "docs/experiments.md";
+inline constexpr std::string_view experiments_document = "docs/reference/experiments.md";
 
 /// Every setting, in the order of the help and of the documents.
 [[nodiscard]] std::span<const Setting> run_settings();

@@ -1,4 +1,4 @@
-// The tables of settings in docs/command-line.md and docs/experiments.md are those of the program.
+// The tables of settings in docs/reference/command-line.md and docs/reference/experiments.md are those of the program.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ std::string table_of_keys() {
 
 // The text of a document between the marks around the settings.
 std::string settings_in(const std::string& document) {
-  std::ifstream file(testing::source_folder() / "docs" / document);
+  std::ifstream file(testing::source_folder() / "docs/reference" / document);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string begin = "<!-- settings of a run -->\n", end = "<!-- end of the settings -->\n";
   const std::size_t from = text.find(begin), to = text.find(end);
@@ -60,13 +60,9 @@ std::string settings_in(const std::string& document) {
   return text.substr(from + begin.size(), to - from - begin.size());
 }
 
-TEST(SettingsDocs, TheCommandLineIsTheTable) {
-  EXPECT_EQ(settings_in("command-line.md"), table_of_options()) << "put the expected rows into docs/command-line.md";
-}
+TEST(SettingsDocs, TheCommandLineIsTheTable) { EXPECT_EQ(settings_in("command-line.md"), table_of_options()); }
 
-TEST(SettingsDocs, ExperimentsAreTheTable) {
-  EXPECT_EQ(settings_in("experiments.md"), table_of_keys()) << "put the expected rows into docs/experiments.md";
-}
+TEST(SettingsDocs, ExperimentsAreTheTable) { EXPECT_EQ(settings_in("experiments.md"), table_of_keys()); }
 
 // Keys of a table that the documents' test does not know would be left out of it.
 TEST(SettingsDocs, EveryKeyIsShown) {

@@ -1,4 +1,4 @@
-// The table of a run's settings: a new one is a field of RunSettings and a row here (docs/adding-an-option.md).
+// The table of a run's settings: a new one is a field of RunSettings and a row here (adding-an-option.md).
 #include <limits>
 
 #include "experiments/settings/history_options.hpp"
@@ -268,7 +268,7 @@ std::vector<Setting> view_settings() {
        .table = "experiment",
        .key = "gpu",
        .type = gpus(gpus_of),
-       .help = "GPUs on which the cost of each method is estimated (docs/gpu-cost.md)",
+       .help = "GPUs on which the cost of each method is estimated (docs/explanation/gpu-cost.md)",
        .otherwise = "none"},
       {.option = "--gpu",
        .commands = {"cost"},
@@ -280,7 +280,7 @@ std::vector<Setting> view_settings() {
        .table = "experiment",
        .key = "footprint",
        .type = footprint_filter([](Run& run) -> std::optional<FootprintFilter>& { return run.footprint; }),
-       .help = "how maps are filtered over the area of a pixel (docs/filters.md)",
+       .help = "how maps are filtered over the area of a pixel (docs/reference/filters.md)",
        .otherwise = "the scene's, else anisotropic:8"},
   };
 }

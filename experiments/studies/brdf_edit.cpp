@@ -16,7 +16,7 @@ void require(bool has, const Material& material, const std::string& parameter, c
   if (has) return;
   throw Error(ErrorKind::usage, fmt::format("--set brdf.{}", parameter),
               fmt::format("material {} {}", material.name, why),
-              "set a parameter that its base BRDF has (docs/base-brdf.md)");
+              "set a parameter that its base BRDF has (docs/explanation/base-brdf.md)");
 }
 
 bool takes(NormalDistribution distribution, const std::string& parameter) {

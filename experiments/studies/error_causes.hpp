@@ -1,5 +1,5 @@
-// The causes of an error (docs/metrics.md): over which pixels it is measured, and what is rendered to separate them,
-// such as the bound: the image of `exact`, which no method can beat under the same footprint filter.
+// The causes of an error (docs/reference/metrics.md): over which pixels it is measured, and what is rendered to
+// separate them, such as the bound: the image of `exact`, which no method can beat under the same footprint filter.
 #pragma once
 
 #include <cstddef>

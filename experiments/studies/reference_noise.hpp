@@ -1,5 +1,5 @@
-// The effect of the reference's own noise on the figures that are measured against it (docs/metrics.md), and further
-// samples until it is small enough.
+// The effect of the reference's own noise on the figures that are measured against it (docs/reference/metrics.md), and
+// further samples until it is small enough.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ struct ReferenceFiles {
 };
 
 /// The samples per pixel of methods' finest levels. Few suffice, because the reference uses the same ones and their
-/// common noise cancels (docs/metrics.md); a fixed number is used as it is.
+/// common noise cancels (docs/reference/metrics.md); a fixed number is used as it is.
 [[nodiscard]] int finest_samples(const ReferenceSettings& settings);
 
 /// The mean over `finest_samples`: of the reference, or of a method's finest level, by the same samples.

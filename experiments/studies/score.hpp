@@ -1,4 +1,4 @@
-// Images of any origin against a reference: every measure of docs/metrics.md, FLIP, and which of two images is closer
+// Images of any origin against a reference: every measure of metrics.md, FLIP, and which of two images is closer
 // at each pixel.
 #pragma once
 
@@ -80,7 +80,7 @@ struct ScoreMetric {
 [[nodiscard]] PictureScore score_picture(const ScoredPicture& picture, const Image& reference, float exposure,
                                          double pixels_per_degree);
 
-/// Which of two RGBA images is closer to the reference, per pixel, by the normalised colour error (docs/metrics.md) and
+/// Which of two RGBA images is closer to the reference, per pixel, by the normalised colour error (metrics.md) and
 /// beyond three standard errors of the reference: one channel, 1 for `a`, -1 for `b`, 0 if noise does not decide or the
 /// pixel is not an object pixel. None if the reference does not know its noise (fewer than two passes).
 [[nodiscard]] std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,

@@ -1,4 +1,4 @@
-"""Footprint from Python: runs the installed program, and reads what it wrote (docs/python.md).
+"""Footprint from Python: runs the installed program, and reads what it wrote (docs/guides/python.md).
 
 Nothing is measured here: every figure is one of the program's.
 """

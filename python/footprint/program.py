@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 class Error(Exception):
     """An error of the program, or of a file that is not what it writes.
 
-    `exit_code` is the program's (docs/command-line.md), None if it did not run; `output` is what it printed.
+    `exit_code` is the program's (docs/reference/command-line.md), None if it did not run; `output` is what it printed.
     """
 
     def __init__(self, message, exit_code=None, output=""):

@@ -47,7 +47,7 @@ class Matrix(Table):
 
 
 class Results(Table):
-    """A results.json, whose keys docs/results.md describes."""
+    """A results.json, whose keys docs/reference/results.md describes."""
 
     @property
     def records(self):
@@ -152,5 +152,5 @@ def _value(record, key):
         try:
             value = value[int(part) if isinstance(value, list) else part]
         except (LookupError, TypeError, ValueError):
-            raise KeyError(f"records have no `{key}` (docs/results.md has their keys)") from None
+            raise KeyError(f"records have no `{key}` (docs/reference/results.md has their keys)") from None
     return value

@@ -88,8 +88,7 @@ std::optional<std::string> storage_range_note(const Material& material, const Me
   if (narrowest >= least) return {};
   return fmt::format(
       "storage={} can store slope variances from {:g} on, but this material's narrowest lobe has {:.2g}: its "
-      "highlights "
-      "are off (docs/stability.md)",
+      "highlights are off (docs/results/stability.md)",
       storage, least, narrowest);
 }
 
@@ -129,7 +128,8 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
       if (auto note = storage_range_note(material, method.info, baked.options, honoured))
         prefiltered.notes.push_back(*std::move(note));
       if (material.anisotropy && has(effects & ~method.info.honours, Effect::anisotropic_lobe))
-        prefiltered.notes.emplace_back("uses the round mean of the anisotropic base BRDF (docs/base-brdf.md)");
+        prefiltered.notes.emplace_back(
+            "uses the round mean of the anisotropic base BRDF (docs/explanation/base-brdf.md)");
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {

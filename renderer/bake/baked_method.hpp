@@ -16,7 +16,7 @@
 
 namespace footprint {
 
-/// A note if a lobe of the material is too narrow for the precision of the option `storage` (docs/stability.md). None
+/// A note if a lobe of the material is too narrow for the precision of the option `storage` (stability.md). None
 /// if the method has no such option or does not round lobes, normals do not vary, or all lobes are wide enough.
 [[nodiscard]] std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info,
                                                             const Options& options, const EffectSet& effects);

@@ -18,7 +18,7 @@ namespace footprint {
 [[nodiscard]] double mean_lobe_variance(const Material& material);
 
 /// The std140 members of surface_material.glsl for the effect `multi_lobe`: the number of lobes, then most_facet_lobes
-/// lobes, padded with zeros. Throws Error (usage): more lobes, or parameters out of range (docs/scenes.md).
+/// lobes, padded with zeros. Throws Error (usage): more lobes, or parameters out of range (docs/reference/scenes.md).
 [[nodiscard]] std::vector<glm::vec4> facet_lobe_block(const Material& material);
 
 /// What anisotropy() of surface_material.glsl returns: alpha of the constant lobe along and across the direction of

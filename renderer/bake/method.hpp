@@ -93,7 +93,7 @@ struct MethodInfo {
   bool resolves_texels = true;
 };
 
-/// A prefiltering method: a pure precompute, a GLSL module and an optional frame build (docs/adding-a-method.md).
+/// A prefiltering method: a pure precompute, a GLSL module and an optional frame build (adding-a-method.md).
 /// Its functions have no state. Each method exists once and is known by its address.
 struct Method {
   MethodInfo info;

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t largest_file = 256U << 10U;
 constexpr int largest_image = 8192;  // texels per side
 constexpr NumberRange any_number{-1e30, 1e30};
-constexpr std::string_view document = "docs/method-files.md";
+constexpr std::string_view document = "docs/guides/method-files.md";
 
 struct Job {
   const Material& material;

@@ -1,4 +1,4 @@
-// A method in one GLSL file: a head in TOML that says what is baked, and a module (docs/method-files.md).
+// A method in one GLSL file: a head in TOML that says what is baked, and a module (docs/guides/method-files.md).
 #pragma once
 
 #include <filesystem>

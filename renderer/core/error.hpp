@@ -6,7 +6,7 @@
 
 namespace footprint {
 
-/// The kind of an error, and the exit code of the program (docs/command-line.md).
+/// The kind of an error, and the exit code of the program (docs/reference/command-line.md).
 enum class ErrorKind {
   check = 1,          ///< a checked threshold or claim failed
   usage = 2,          ///< the command line, a config or an input file is wrong

@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// The estimated cost of one method on one GPU, per pixel that the object covers (docs/gpu-cost.md).
+/// The estimated cost of one method on one GPU, per pixel that the object covers (docs/explanation/gpu-cost.md).
 struct GpuCost {
   std::string gpu;
   double cost_ns = 0;                     ///< largest of the next three, and passes_ns; milliseconds per million pixels

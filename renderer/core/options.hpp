@@ -66,7 +66,7 @@ struct MethodSpec {
   std::string text;  ///< as written
   std::string name;
   std::map<std::string, std::string> options;
-  std::map<std::string, std::string> history{};  ///< options of the history of its frames (docs/temporal.md)
+  std::map<std::string, std::string> history{};  ///< options of the history of its frames (temporal.md)
   std::shared_ptr<const Method> file{};  ///< read from the file that `name` names; null: a method of the program
 };
 

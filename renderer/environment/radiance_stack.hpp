@@ -28,8 +28,8 @@ struct RadianceStack {
 /// progress: may throw.
 [[nodiscard]] RadianceStack prefilter_environment(const Environment& environment, const Progress& progress);
 
-/// The geometry factors of f * cos in the table, for facets with their own horizon (docs/base-brdf.md): Smith's for
-/// alphas in even steps from 0 to the lobe's own, Tan's, and none.
+/// The geometry factors of f * cos in the table, for facets with their own horizon (docs/explanation/base-brdf.md):
+/// Smith's for alphas in even steps from 0 to the lobe's own, Tan's, and none.
 inline constexpr int smith_steps = 4, tan_geometry = smith_steps + 1, no_geometry = smith_steps + 2;
 
 /// Layers of one array texture, RGBA, 32-bit floats. Layer 2 g + p is part p of geometry g: part 0 the half of a lobe's

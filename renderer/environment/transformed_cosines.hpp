@@ -9,7 +9,7 @@
 
 namespace footprint {
 
-/// The geometry factors of f * cos (docs/base-brdf.md) that a table may include.
+/// The geometry factors of f * cos (docs/explanation/base-brdf.md) that a table may include.
 enum class TabulatedGeometry { none, tan, smith_ggx, smith_beckmann, ward };
 
 /// The reflected lobe that a table is about: density of facet normals times geometry factor, above the facets' own

@@ -114,7 +114,7 @@ TEST(TransformedCosines, IntegrateToOneAboveThePlane) {
   }
 }
 
-// The errors that docs/area-lights.md states.
+// The errors that docs/explanation/area-lights.md states.
 TEST(TransformedCosines, DifferFromTheLobeByTheStatedErrors) {
   const auto expect_error = [](const ReflectedLobeKind& kind, double alpha, double degrees, double stated) {
     EXPECT_NEAR(total_variation(kind, degrees * pi / 180.0, alpha), stated, 0.001 + 0.05 * stated)

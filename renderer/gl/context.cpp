@@ -187,9 +187,9 @@ bool has_current_context() noexcept { return current.functions != nullptr; }
 namespace {
 
 // Mesa 22.3's llvmpipe does not look whether its allocations succeed: where `ulimit -v` leaves it too little,
-// eglCreateContext writes through null pointers, or frees what it never got (docs/command-line.md). What it takes was
-// measured with 1, 2, 4 and 8 threads: 385, 528, 816 and 1201 MiB until the context is there, and 100 for the first
-// frame. Each thread comes with a heap of its own.
+// eglCreateContext writes through null pointers, or frees what it never got (docs/reference/command-line.md). What it
+// takes was measured with 1, 2, 4 and 8 threads: 385, 528, 816 and 1201 MiB until the context is there, and 100 for the
+// first frame. Each thread comes with a heap of its own.
 void require_address_space() {
   constexpr std::uint64_t mebibyte = 1 << 20, at_least = 512 * mebibyte, a_thread = 160 * mebibyte;
   constexpr unsigned most_threads = 16;  // of llvmpipe

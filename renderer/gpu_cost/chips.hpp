@@ -1,4 +1,4 @@
-// The GPUs whose cost is estimated: published figures of each chip (docs/gpu-cost.md cites them).
+// The GPUs whose cost is estimated: published figures of each chip (docs/explanation/gpu-cost.md cites them).
 #pragma once
 
 #include <span>

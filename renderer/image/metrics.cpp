@@ -1,4 +1,4 @@
-// The formulas of docs/metrics.md, summed in double precision over the pixels that the reference covers wholly.
+// The formulas of metrics.md, summed in double precision over the pixels that the reference covers wholly.
 #include "renderer/image/metrics.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The error measures of docs/metrics.md, over the object's pixels.
+// The error measures of metrics.md, over the object's pixels.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ using LuminanceHistogram = std::array<std::uint32_t, 32>;
 struct ErrorFigures {
   double normalized_color = 0;    ///< Tan 2005: mean of |rgb - rgb_ref| / sqrt(3) on exposed values clamped to [0,1]
   double relative_rmse = 0;       ///< sqrt(sum |x - r|^2 / sum |r|^2) on linear radiance
-  double relmse = 0;              ///< mean of (x - r)^2 / (r^2 + epsilon), epsilon in docs/metrics.md
+  double relmse = 0;              ///< mean of (x - r)^2 / (r^2 + epsilon), epsilon in metrics.md
   double psnr = 0;                ///< dB, peak 1, on exposed clamped values; infinite for equal images
   double energy_bias = 0;         ///< (sum x - sum r) / sum r on linear radiance, signed
   double luminance_distance = 0;  ///< mean of |y - y_ref| of exposed clamped luminances, each image's sorted on its own
@@ -37,7 +37,7 @@ struct ErrorFigures {
 [[nodiscard]] std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
                                                           const Image& mask);
 
-/// Flicker: how the change of an image from the previous frame differs from the reference's (docs/metrics.md).
+/// Flicker: how the change of an image from the previous frame differs from the reference's (metrics.md).
 struct FlickerFigures {
   double mean = 0;  ///< of |(d(x) - d(x')) - (d(r) - d(r'))| / sqrt(3), ' the frame before; exposed, clamped values
   double p99 = 0;   ///< its 99th percentile (nearest rank)

@@ -11,7 +11,7 @@ namespace footprint {
 
 enum class NormalDistribution { blinn_phong, beckmann, ggx, vmf };
 
-/// The distribution of normals within one facet (docs/base-brdf.md).
+/// The distribution of normals within one facet (docs/explanation/base-brdf.md).
 struct Lobe {
   NormalDistribution distribution = NormalDistribution::blinn_phong;
   double parameter = 64.0;  ///< exponent (blinn_phong), alpha (beckmann, ggx), kappa (vmf)

@@ -19,7 +19,7 @@ const std::vector<Lobe> lobes{{blinn_phong, 1}, {blinn_phong, 64}, {blinn_phong,
                               {vmf, 512},       {vmf, 1e6},        {beckmann, 0.05},   {beckmann, 0.9},
                               {ggx, 0.001},     {ggx, 0.3},        {ggx, 1.0}};
 
-// The formulas of docs/base-brdf.md as printed, in long double: no stable form is needed there.
+// The formulas of docs/explanation/base-brdf.md as printed, in long double: no stable form is needed there.
 long double printed(const Lobe& lobe, long double theta) {
   const long double p = lobe.parameter;
   const long double c = std::cos(theta);

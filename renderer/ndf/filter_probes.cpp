@@ -1,4 +1,4 @@
-// The probes of each filter; sources are in docs/filters.md.
+// The probes of each filter; sources are in docs/reference/filters.md.
 #include "renderer/ndf/filter_probes.hpp"
 
 #include <algorithm>

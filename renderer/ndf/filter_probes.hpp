@@ -27,7 +27,7 @@ struct ProbeSet {
 };
 
 /// The probes of a filter. `hardware` follows the formulas of the OpenGL extension; `shaded` has one probe per part.
-/// docs/filters.md gives the sources. Throws Error (usage): a stochastic filter.
+/// docs/reference/filters.md gives the sources. Throws Error (usage): a stochastic filter.
 [[nodiscard]] ProbeSet probes_of(const FootprintFilter& filter, const TexelFootprint& footprint);
 
 }  // namespace footprint

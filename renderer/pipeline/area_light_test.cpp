@@ -70,7 +70,7 @@ glm::dvec3 point_under(const Scene& scene, int x, int y) {
   return from - ray * (from.z / ray.z);
 }
 
-// f cos of GGX, Smith and Schlick, or of Lambert (docs/base-brdf.md), about the z axis.
+// f cos of GGX, Smith and Schlick, or of Lambert (docs/explanation/base-brdf.md), about the z axis.
 double reflectance(const LitSquare& c, const glm::dvec3& wi, const glm::dvec3& wo) {
   if (wi.z <= 0.0) return 0.0;
   if (c.diffuse) return 0.8 / pi * wi.z;

@@ -1,4 +1,4 @@
-// Temporal accumulation: frames blended into a history that follows the surface (docs/temporal.md).
+// Temporal accumulation: frames blended into a history that follows the surface (docs/explanation/temporal.md).
 #pragma once
 
 #include <array>

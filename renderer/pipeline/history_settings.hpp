@@ -1,4 +1,4 @@
-// How frames are accumulated over time (docs/temporal.md).
+// How frames are accumulated over time (docs/explanation/temporal.md).
 #pragma once
 
 namespace footprint {

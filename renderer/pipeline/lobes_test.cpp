@@ -144,7 +144,7 @@ TEST(Lobes, FourTexelsMeetTheGoldenDensity) {
   }
 }
 
-// docs/base-brdf.md, the last column of its table of widths.
+// docs/explanation/base-brdf.md, the last column of its table of widths.
 float alpha_of(const Lobe& lobe) {
   const auto p = static_cast<float>(lobe.parameter);
   switch (lobe.distribution) {

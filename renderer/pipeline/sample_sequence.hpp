@@ -42,7 +42,7 @@ struct SampleDigits {
 inline constexpr int most_samples = 4096;  ///< per pixel
 
 /// One draw, which fills a grid of samples at one point of their cells. Two sequences of equal length are scrambled
-/// independently, so their means are independent estimates and their difference estimates the error (docs/metrics.md).
+/// independently, so their means are independent estimates and their difference estimates the error (metrics.md).
 struct SamplePass {
   glm::dvec2 offset{0};      ///< from a cell's centre, in cells, -0.5 to 0.5
   int half = 0;              ///< the sequence, 0 or 1

@@ -19,9 +19,9 @@ namespace footprint {
 struct Supersampled {
   int spp = 0;
   /// RGBA: mean radiance over the samples that have one, and the share 0..1 of samples that the surface covers. Samples
-  /// of invalid texels (docs/base-brdf.md) cover but enter no mean; a pixel with no other samples has coverage 0.
+  /// of invalid texels (base-brdf.md) cover but enter no mean; a pixel with no other samples has coverage 0.
   Image mean;
-  /// RGB: standard error of the mean, from the spread of the sequences' block means (docs/metrics.md); 0 with one
+  /// RGB: standard error of the mean, from the spread of the sequences' block means (metrics.md); 0 with one
   /// block.
   Image standard_error;
   /// RGBA: means of the two sequences, which share no random number, with the coverage of both. Their difference
@@ -76,7 +76,7 @@ class Supersampler {
 };
 
 /// Root mean square of the standard error over object pixels and channels, relative to the mean radiance
-/// (docs/metrics.md). None if the object covers no whole pixel, or spp is 1.
+/// (metrics.md). None if the object covers no whole pixel, or spp is 1.
 [[nodiscard]] std::optional<double> relative_standard_error(const Supersampled& reference);
 
 /// A pixel is unresolved if, in any channel, its standard error is above `relative` of its mean and, once exposed,

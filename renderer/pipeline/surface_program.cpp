@@ -106,8 +106,8 @@ void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, Sampl
   gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.sampler_state(state)));
 }
 
-// Directions of each kind that a sample draws from an environment, its texels together: powers of two. docs/metrics.md
-// has what they are worth. One that sums over a patch's facets costs far more.
+// Directions of each kind that a sample draws from an environment, its texels together: powers of two.
+// docs/reference/metrics.md has what they are worth. One that sums over a patch's facets costs far more.
 constexpr std::uint32_t directions_per_sample = 16;
 constexpr std::uint32_t directions_of_a_patch = 2;
 constexpr std::uint32_t directions_to_areas = 4;  // without an environment: light comes from fewer directions
@@ -304,9 +304,9 @@ gl::Program method_program(const BakedMethod& baked, std::string_view name, std:
     if (!watch) throw;
     const int line = gl::smallest_line_in(error.message());
     const std::string_view file = baked.method->shader.file;
-    throw Error(ErrorKind::usage,
-                line > 0 && line < first_shared_line ? fmt::format("{}:{}", file, line) : std::string(file),
-                error.message(), "docs/method-files.md has the inputs for `reads` and the functions of a module");
+    throw Error(
+        ErrorKind::usage, line > 0 && line < first_shared_line ? fmt::format("{}:{}", file, line) : std::string(file),
+        error.message(), "docs/guides/method-files.md has the inputs for `reads` and the functions of a module");
   }
 }
 

@@ -46,8 +46,8 @@ struct SkySettings {
   glm::dvec3 sun_direction{0.4, 0.6, 0.7};  ///< towards the sun; any length but 0, not below the horizon (y >= 0)
 };
 
-/// A clear sky above a grey ground, +y up, with radiance about 1 where it is blue (docs/scenes.md): the gradients of
-/// CIE standard general sky 12, and a soft sun. 1024 x 512 texels.
+/// A clear sky above a grey ground, +y up, with radiance about 1 where it is blue (docs/reference/scenes.md): the
+/// gradients of CIE standard general sky 12, and a soft sun. 1024 x 512 texels.
 [[nodiscard]] Environment sky_environment(const SkySettings& settings);
 
 /// Wider maps are averaged down to this width, the largest of the sampling tables.

@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// The kinds of filters; docs/filters.md has their kernels.
+/// The kinds of filters; docs/reference/filters.md has their kernels.
 enum class FootprintFilterKind {
   trilinear,    ///< one lookup at the level of the footprint's longer edge
   anisotropic,  ///< up to N lookups along that edge, by the formulas of EXT_texture_filter_anisotropic

@@ -25,8 +25,8 @@ struct Microgeometry;
 enum class GeometryTerm { none, tan, smith, ward };
 enum class FresnelTerm { none, schlick };
 
-/// The base BRDF of one facet, shared by all methods and the reference (docs/base-brdf.md). f * cos is F D (none),
-/// F D / (n.v) (tan), F D G2 / (4 n.v) with height-correlated G2 (smith) or F D (n.l) / (4 (v.h)^2) (ward).
+/// The base BRDF of one facet, shared by all methods and the reference (docs/explanation/base-brdf.md). f * cos is F D
+/// (none), F D / (n.v) (tan), F D G2 / (4 n.v) with height-correlated G2 (smith) or F D (n.l) / (4 (v.h)^2) (ward).
 struct BaseBrdf {
   NormalDistribution distribution = NormalDistribution::ggx;
   GeometryTerm geometry = GeometryTerm::smith;
@@ -66,8 +66,8 @@ struct FacetLobe {
 /// The most lobes of a facet.
 inline constexpr std::size_t most_facet_lobes = 8;
 
-/// A clear layer over a material, with its own GGX facets (KHR_materials_clearcoat; docs/base-brdf.md). Maps already
-/// include the factors.
+/// A clear layer over a material, with its own GGX facets (KHR_materials_clearcoat; docs/explanation/base-brdf.md).
+/// Maps already include the factors.
 struct ClearCoat {
   float weight = 1.0F;                      ///< 0..1, the coated share of the surface
   float roughness = 0.0F;                   ///< perceptual, 0..1; alpha = roughness^2

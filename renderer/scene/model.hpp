@@ -42,7 +42,7 @@ inline void add_once(std::vector<std::string>& lines, std::string line) {
 
 /// Loads a scene of a glTF file: the selected one, else the default, else the first, else all root nodes. Meshes are in
 /// world space, one per material of the selected variant. Includes all lights, and the selected or the first camera. It
-/// may have no triangles. Throws Error (usage) with file and place; docs/scenes.md lists the supported features.
+/// may have no triangles. Throws Error (usage) with file and place; scenes.md lists the supported features.
 [[nodiscard]] Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection = {});
 
 }  // namespace footprint

@@ -17,7 +17,7 @@
 
 namespace footprint {
 
-/// Selections by name, or by number from 0. None: the file's default (docs/scenes.md).
+/// Selections by name, or by number from 0. None: the file's default (docs/reference/scenes.md).
 struct ModelSelection {
   std::optional<std::string> scene{}, camera{}, variant{}, animation{};
   std::optional<double> time{};  ///< of the animation, seconds
@@ -95,7 +95,7 @@ enum class AreaIntegral {
 /// The allowed number of points of an area light.
 inline constexpr int most_area_points = 256;
 
-/// Light from one side of a flat surface, with equal radiance in all directions (docs/area-lights.md).
+/// Light from one side of a flat surface, with equal radiance in all directions (docs/explanation/area-lights.md).
 struct AreaLight {
   AreaShape shape = AreaShape::rectangle;
   glm::vec3 position{0.0F};                ///< the centre
@@ -139,7 +139,7 @@ struct Bounds {
 /// The allowed texels per side of a shadow map.
 inline constexpr int smallest_shadow_map = 16, largest_shadow_map = 16384;
 
-/// Large-scale visibility (docs/shadows.md).
+/// Large-scale visibility (docs/explanation/shadows.md).
 struct ShadowSettings {
   std::optional<bool> cast;  ///< none: if anything can hide a light from a surface
   bool both_sides = false;   ///< a one-sided triangle also blocks light from behind

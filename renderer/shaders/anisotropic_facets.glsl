@@ -1,5 +1,5 @@
 // Facets whose lobe is wider along one direction of their tangent plane. The direction turns with the facet's normal, by
-// the shortest rotation from the surface's (docs/base-brdf.md).
+// the shortest rotation from the surface's (docs/explanation/base-brdf.md).
 
 //? include anisotropic_widths.glsl
 

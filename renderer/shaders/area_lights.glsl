@@ -1,4 +1,4 @@
-// Area lights: rectangles and disks that shine to one side with equal radiance in all directions (docs/area-lights.md).
+// Area lights: rectangles and disks that shine to one side with equal radiance in all directions (docs/explanation/area-lights.md).
 struct AreaLight {
   vec4 position_area;
   vec4 across_half;      // unit, along two edges; w: from the centre to the edges, or the radius

@@ -1,5 +1,5 @@
 // Area lights by the lobes of a module, as linearly transformed cosines (Heitz et al. 2016). The table of fits is that
-// of renderer/environment/transformed_cosines.hpp; docs/area-lights.md has the formulas.
+// of renderer/environment/transformed_cosines.hpp; docs/explanation/area-lights.md has the formulas.
 
 const int disk_corners = 24;
 const float disk_scale = 1.0057578;   // a polygon of 24 corners with the area of the disk

@@ -1,4 +1,4 @@
-// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/base-brdf.md, Clear coat): one filter for
+// The clear coat over what a point reflects (KHR_materials_clearcoat; docs/explanation/base-brdf.md, Clear coat): one filter for
 // every method that filters. The reference, and a method that filters nothing, read the finest level.
 //? include ggx_density.glsl
 //? include ggx_geometry.glsl

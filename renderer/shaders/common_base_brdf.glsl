@@ -1,4 +1,4 @@
-// The reflectance of one facet: all terms besides the distribution, as f * cos (docs/base-brdf.md).
+// The reflectance of one facet: all terms besides the distribution, as f * cos (docs/explanation/base-brdf.md).
 
 // Properties of the surface other than its facets.
 struct Surface {

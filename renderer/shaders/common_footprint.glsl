@@ -75,7 +75,7 @@ void countFinest(Footprint f) {}
 //? end
 
 // The numbers of rounds of the loops that depend on the pixel. Programs whose cost a GPU's compiler estimates have
-// constants instead, because the compiler must unroll these loops to know their cost (docs/gpu-cost.md). A program that
+// constants instead, because the compiler must unroll these loops to know their cost (docs/explanation/gpu-cost.md). A program that
 // counts rounds writes their means over the loops of a pixel.
 //? if fixed_trips
 int probesHere(int count) { return fixed_probes; }

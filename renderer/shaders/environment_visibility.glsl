@@ -1,5 +1,5 @@
 // Visibility of the environment past large bodies: signed distance functions at vertices (Wang et al. 2009) as weights
-// of common components, docs/shadows.md.
+// of common components, docs/explanation/shadows.md.
 in vec4 visibility_weights[4];  // the first is 1, of the mean
 in vec4 visible_diffuse;        // rgb: of a Lambert surface's irradiance, the visible share; a: 0 where bodies hide none
 

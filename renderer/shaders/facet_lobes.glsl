@@ -1,4 +1,4 @@
-// Facets with several lobes whose axes rotate with the normal of the facet (docs/base-brdf.md).
+// Facets with several lobes whose axes rotate with the normal of the facet (docs/explanation/base-brdf.md).
 
 //? include facet_frame.glsl
 

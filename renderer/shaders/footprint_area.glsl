@@ -1,4 +1,4 @@
-// Area weights: each texel of one level counts with its share of the footprint (docs/filters.md). One bilinear lookup
+// Area weights: each texel of one level counts with its share of the footprint (docs/reference/filters.md). One bilinear lookup
 // reads 2 x 2 texels: it has their total weight, and its position sets their shares.
 // The footprint P is convolved with the tent of bilinear filtering at the finest level. A texel of level l then has the
 // integral over its square of P convolved with a box of 2^-l of its width. For strips of two rows the weight factors

@@ -1,4 +1,4 @@
-// The footprint filters (docs/filters.md): positions, common level and weights of the trilinear lookups for a
+// The footprint filters (docs/reference/filters.md): positions, common level and weights of the trilinear lookups for a
 // footprint. The weights sum to one. There is at least one probe, so loops test at their end; a test at the head makes
 // llvmpipe execute the body once more for no pixel.
 

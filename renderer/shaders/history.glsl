@@ -1,4 +1,4 @@
-// Blends a frame into the history of the frames before it (docs/temporal.md). A pixel follows its surface to where that
+// Blends a frame into the history of the frames before it (docs/explanation/temporal.md). A pixel follows its surface to where that
 // was in the frame before.
 layout(binding = 0) uniform sampler2D frame;        // radiance and coverage
 layout(binding = 1) uniform sampler2D frame_depth;  // 1 at the near plane, 0 at the far one

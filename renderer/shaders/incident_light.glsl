@@ -16,7 +16,7 @@ Incident incident(vec3 wi, vec3 irradiance_at_normal, vec4 source) {
 }
 
 // Whether light from a direction of the tangent frame reaches the facets under the horizon rule of the scene
-// (docs/base-brdf.md, Horizon). The zero vector means no direction.
+// (docs/explanation/base-brdf.md, Horizon). The zero vector means no direction.
 bool reachesFacets(vec3 wi) {
 //? if horizon_open
   return dot(wi, wi) > 0.0;

@@ -36,7 +36,7 @@ const float least_alone = 0.99;  // share of a pixel from which one material cou
 //? end
 
 //? if cast_shadow
-// If the horizon cuts light off, light from below the surface does not reach it (docs/base-brdf.md), independent of its
+// If the horizon cuts light off, light from below the surface does not reach it (docs/explanation/base-brdf.md), independent of its
 // map.
 float shareOf(float first_view, vec3 facet, vec3 normal, vec3 to_light) {
 //? if not horizon_open

@@ -1,4 +1,4 @@
-// A texel under a pixel, drawn at random: filtering after shading (docs/temporal.md). Draw i of a frame is a point of
+// A texel under a pixel, drawn at random: filtering after shading (docs/explanation/temporal.md). Draw i of a frame is a point of
 // Owen-scrambled Sobol sequences, which go on over the frames.
 uniform uvec2 draw_places[16];  // digits for each draw: a place in the footprint, or in the drawn texel
 uniform uvec2 draw_levels[16];  // digits for each draw: one of two levels; the first dimension

@@ -47,7 +47,7 @@ float distanceAttenuation(float squared_distance, float range) {
 }
 
 //? if cast_shadow and (point_light or spot_light or directional_light or area_light)
-// Large-scale visibility of point, spot and directional lights: shadow maps (docs/shadows.md).
+// Large-scale visibility of point, spot and directional lights: shadow maps (docs/explanation/shadows.md).
 struct ShadowView {
   mat4 world_to_map;    // to (u w, v w, linear depth, w)
   vec4 axis_texel;      // where the map looks; edge of a texel in metres at w = 1

@@ -1,4 +1,4 @@
-// The columns of a record, listed once: results.csv, table.md, the page and docs/results.md are written from this list.
+// The columns of a record, listed once: results.csv, table.md, the page and results.md are written from this list.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace footprint {
 struct Column {
   std::string_view key;        ///< the name in results.csv and in the address of the page
   const char* place = "";      ///< JSON pointer into a record of results.json; empty: not in results.csv
-  std::string_view unit;       ///< in docs/results.md
+  std::string_view unit;       ///< in results.md
   std::string_view title{};    ///< the heading in tables; empty: no table has the column
   std::string_view meaning{};  ///< on the page
   std::string_view note{};     ///< below table.md

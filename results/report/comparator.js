@@ -111,7 +111,7 @@ const byteOf = (() => {  // of a displayed linear value, 0 to 1
 const clamp = (value) => (value > 0 ? Math.min(value, 1) : 0);
 const gain = () => data.in_false_color ? 1 : exposureOfView() * 2 ** state.stops;
 
-/** The normalised colour error of docs/metrics.md between two images at a pixel, at the run's own exposure. */
+/** The normalised colour error of docs/reference/metrics.md between two images at a pixel, at the run's own exposure. */
 function errorAt(a, b, i, exposure) {
   let sum = 0;
   for (let c = 3 * i; c < 3 * i + 3; ++c) sum += (clamp(exposure * a.rgb[c]) - clamp(exposure * b.rgb[c])) ** 2;

@@ -39,7 +39,7 @@ struct EditRun {
 /// The names of the stages, in the order in which they first come in any record.
 [[nodiscard]] std::vector<std::string> stage_names(const EditRun& run);
 
-/// The document of docs/results.md, "schema": "footprint-edit/1".
+/// The document of docs/reference/results.md, "schema": "footprint-edit/1".
 [[nodiscard]] std::string edit_json(const EditRun& run);
 
 /// One line per frame, one column per parameter and stage (milliseconds), RFC 4180.

@@ -1,4 +1,4 @@
-// The outcome of an experiment: its figures and the published ones, its claims and thresholds (docs/experiments.md).
+// The outcome of an experiment: its figures and the published ones, its claims and thresholds (experiments.md).
 #pragma once
 
 #include <array>
@@ -77,7 +77,7 @@ struct ClaimOutcome {
   [[nodiscard]] bool as_expected() const { return outcome == expect; }
 };
 
-/// A claim over times, decided by estimated cost in place of measured times (docs/gpu-cost.md). It is never expected or
+/// A claim over times, decided by estimated cost in place of measured times (gpu-cost.md). It is never expected or
 /// counted with the claims.
 struct SecondVerdict {
   std::string claim;  ///< its name

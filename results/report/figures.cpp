@@ -45,8 +45,8 @@ std::vector<std::string> histories_of(const Results& results) {
   for (const Record& record : results.records) {
     if (!record.history) continue;
     const auto& [frames, alpha, clamp, jitter] = *record.history;
-    std::string text = fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/temporal.md)", frames, alpha,
-                                   clamp, jitter ? "on" : "off");
+    std::string text = fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/explanation/temporal.md)", frames,
+                                   alpha, clamp, jitter ? "on" : "off");
     if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
   }
   return texts;
@@ -126,7 +126,7 @@ std::vector<Provenance> provenance(const Results& results) {
       {"Scene", scene_text(scene)},
       {"Exposure", fmt::format("{} ({})", three_figures(scene.exposure), scene.exposure_source)},
       {"Reference", reference_text(results.reference)},
-      {"Footprint filter", fmt::format("{} (docs/filters.md)", results.footprint)}};
+      {"Footprint filter", fmt::format("{} (docs/reference/filters.md)", results.footprint)}};
   for (std::string& history : histories_of(results)) lines.push_back({"History", std::move(history)});
   if (results.timing.frames > 0) lines.push_back({"Timing", timing_text(results.timing)});
   lines.push_back({"Supplied", list_text(scene.defaults, "none")});

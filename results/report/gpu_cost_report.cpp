@@ -92,7 +92,8 @@ std::string markdown_of(const std::vector<Table>& tables) {
 }
 
 constexpr const char* gpu_note =
-    "An estimate from the driver's compiler and published rates, not a measurement (docs/gpu-cost.md): the largest of "
+    "An estimate from the driver's compiler and published rates, not a measurement (docs/explanation/gpu-cost.md): the "
+    "largest of "
     "arithmetic, texture and memory time, plus the passes before it. 1 ns per pixel is 2.07 ms for 1920x1080 pixels.";
 
 }  // namespace

@@ -52,7 +52,7 @@ void fields(Archive& archive, Is<MethodCosts> auto& value) {
   archive("gpus", value.gpus);
 }
 
-/// The document of docs/gpu-cost.md, "schema": "footprint-cost/1".
+/// The document of docs/explanation/gpu-cost.md, "schema": "footprint-cost/1".
 [[nodiscard]] std::string cost_json(const CostReport& report);
 
 /// One line per method and GPU, RFC 4180.

@@ -1,4 +1,4 @@
-// The measurements of a run as plain values: the content of results.json (docs/results.md), free of GL and of files.
+// The measurements of a run as plain values: the content of results.json (results.md), free of GL and of files.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ struct TimeRatio {
   double median = 0, low = 0, high = 0;
 };
 
-/// The causes of an error: normalised colour errors over parts of the object's pixels; docs/metrics.md. None: no such
+/// The causes of an error: normalised colour errors over parts of the object's pixels; metrics.md. None: no such
 /// pixel, or its image was not rendered.
 struct ErrorCauses {
   std::optional<double> shading;        ///< of the picture, over interior pixels: what methods are ranked by
@@ -74,7 +74,7 @@ struct PixelCounts {
   std::optional<std::size_t> light;  ///< of those, that were lit by all of an environment; none without one
 };
 
-/// Errors of one picture; docs/metrics.md. Absent figures are null in the JSON and "n/a" in tables.
+/// Errors of one picture; metrics.md. Absent figures are null in the JSON and "n/a" in tables.
 struct RecordError {
   double normalized_color = 0;
   double relative_rmse = 0;
@@ -90,7 +90,7 @@ struct RecordError {
   ErrorCauses causes = {};
 };
 
-/// Flicker over some of the object's pixels; docs/metrics.md.
+/// Flicker over some of the object's pixels; metrics.md.
 struct PartFlicker {
   double mean = 0, p99 = 0;
 };
@@ -104,7 +104,7 @@ struct FlickerCauses {
   std::optional<PartFlicker> method;   ///< of the picture against that of `exact`, over the same
 };
 
-/// The change of an image from frame to frame that the reference does not have; docs/metrics.md.
+/// The change of an image from frame to frame that the reference does not have; metrics.md.
 struct Flicker {
   double mean = 0;                      ///< over the object's pixels, 0 to 2
   double p99 = 0;                       ///< 99th percentile over them

@@ -104,7 +104,7 @@ TEST(ResultsCsv, AbsentFiguresAreEmptyAndNamesSurvive) {
   EXPECT_EQ(value(lines, 4, "ratio_to_direct_median"), "");
 }
 
-/// The table of docs/results.md: adjacent columns of one unit share a row.
+/// The table of docs/reference/results.md: adjacent columns of one unit share a row.
 std::string documented_columns() {
   std::string text = "| columns | unit |\n|---|---|\n", names;
   const std::span<const Column> columns = record_columns();
@@ -120,7 +120,7 @@ std::string documented_columns() {
 
 TEST(ResultsCsv, TheDocumentListsEveryColumnWithItsUnit) {
   std::ostringstream document;
-  document << std::ifstream(testing::source_folder() / "docs/results.md").rdbuf();
+  document << std::ifstream(testing::source_folder() / "docs/reference/results.md").rdbuf();
   EXPECT_TRUE(test::says(document.str(), documented_columns()));
 }
 

@@ -28,7 +28,7 @@ std::vector<std::string> animate(const std::vector<std::string>& more) {
 const std::vector<Case> experiment_cases{
     {.name = "HelpOfRun",
      .arguments = {"run", "--help"},
-     .output_has = {"Examples:", "footprint run", "--quick", "--fresh", "--shard", "docs/experiments.md"}},
+     .output_has = {"Examples:", "footprint run", "--quick", "--fresh", "--shard", "docs/reference/experiments.md"}},
     {.name = "HelpOfCheck",
      .arguments = {"check", "--help"},
      .output_has = {"Examples:", "footprint check quick", "Exit code 1"}},

@@ -52,7 +52,7 @@ class MethodFileTest(WholeRunTest):
         self.assertGreater(largest_difference(own, other), 0.0)
 
     def test_the_tutorial_is_true(self):
-        page = (SOURCE / "docs" / "method-files.md").read_text(encoding="utf-8")
+        page = (SOURCE / "docs/guides/method-files.md").read_text(encoding="utf-8")
         text = page.split("```glsl\n", 1)[1].split("```", 1)[0]
         self.assertLessEqual(text.count("\n"), 20)
         mine = self.render("mine", "bumps", *SMALL, "--method", self.file(text))

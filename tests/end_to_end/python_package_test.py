@@ -111,7 +111,7 @@ class PythonPackage(WholeRunTest):
     # Images.
 
     def test_images_have_the_error_of_their_record(self):
-        """docs/metrics.md's formula over the arrays gives what the program computed."""
+        """docs/reference/metrics.md's formula over the arrays gives what the program computed."""
         exposure = self.plain["scene"]["exposure"]
         for record in self.plain["records"]:
             image = self.results.image(record["method"], record["distance"])
@@ -257,10 +257,10 @@ class PythonPackage(WholeRunTest):
     # The examples.
 
     def test_the_document_shows_what_python_prints(self):
-        text = (SOURCE / "docs/python.md").read_text(encoding="utf-8")
+        text = (SOURCE / "docs/guides/python.md").read_text(encoding="utf-8")
         session = "\n".join(re.findall(r"^```pycon\n(.*?)^```$", text, re.MULTILINE | re.DOTALL))
         self.assertGreater(session.count(">>>"), 9)
-        test = doctest.DocTestParser().get_doctest(session, {}, "python.md", "docs/python.md", 0)
+        test = doctest.DocTestParser().get_doctest(session, {}, "python.md", "docs/guides/python.md", 0)
         printed = io.StringIO()
         with contextlib.chdir(self.folder), contextlib.redirect_stderr(io.StringIO()):
             doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test, out=printed.write)

@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double narrowest = 1e-3;       // alpha of a coat, docs/base-brdf.md
+constexpr double narrowest = 1e-3;       // alpha of a coat, docs/explanation/base-brdf.md
 constexpr double grazing_cosine = 1e-4;  // the n.v that Smith's term takes of facets that face away
 
 // The layer's own f * cos: D G2 / (4 n.v) about its normal.

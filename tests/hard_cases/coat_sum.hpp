@@ -1,5 +1,5 @@
-// KHR_materials_clearcoat's formula (docs/base-brdf.md, Clear coat) in double precision, summed over the coats of a
-// pixel. It shares no code with the shaders and filters nothing.
+// KHR_materials_clearcoat's formula (docs/explanation/base-brdf.md, Clear coat) in double precision, summed over the
+// coats of a pixel. It shares no code with the shaders and filters nothing.
 #pragma once
 
 #include <vector>

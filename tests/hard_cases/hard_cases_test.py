@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every method through every hard case, by the program itself; docs/stability.md says what came of it.
+"""Every method through every hard case, by the program itself; docs/results/stability.md says what came of it.
 
 usage: hard_cases_test.py PROGRAM DOCS_PAGE
 """

@@ -83,7 +83,7 @@ constexpr const char* page_head = R"(# Where methods stay stable
 
 Written by `scripts/stability` from a run of `footprint check hard_cases`, which tests every method with every hard
 case. Only properties measured in that run are reported. Cases are entries of the tables in
-[`tests/hard_cases/`](../tests/hard_cases), and apply to every method, new ones too.
+[`tests/hard_cases/`](../../tests/hard_cases), and apply to every method, new ones too.
 
 | figure | meaning | bound |
 |---|---|---|
@@ -105,7 +105,7 @@ same is true of the sum over a pixel's coats (`tests/hard_cases/coat_sum.hpp`). 
 image, and a step is the change from one pixel to the next.
 
 - *Guarded*: a clamp is active there; the figure is the error it introduces.
-- *Out of range*: a known limit. The method's README gives the range, or [base-brdf.md](base-brdf.md#clear-coat) for
+- *Out of range*: a known limit. The method's README gives the range, or [base-brdf.md](../explanation/base-brdf.md#clear-coat) for
   coats. Each figure has its own bound. A run fails if the figure exceeds it, or if the case passes after all.
 
 )";

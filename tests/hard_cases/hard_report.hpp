@@ -1,4 +1,4 @@
-// The reports of a run of the hard cases: the page docs/stability.md, and every row as JSON.
+// The reports of a run of the hard cases: the page docs/results/stability.md, and every row as JSON.
 #pragma once
 
 #include <string>

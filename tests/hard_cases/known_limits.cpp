@@ -112,7 +112,7 @@ void add_pictures(Limits& limits) {
              "the diffuse term takes slopes for a Gaussian about their mean; two sides of a groove are none");
 }
 
-// Limits of the coat's filter, which all methods but `direct` share: docs/base-brdf.md, Clear coat.
+// Limits of the coat's filter, which all methods but `direct` share: docs/explanation/base-brdf.md, Clear coat.
 void add_coats(Limits& limits) {
   limits.add({"direct"}, {"bumpy_coat_seen_along_the_surface"}, "energy", 0.03,
              "it takes one normal of the coat per pixel, and few of them face the viewer there");

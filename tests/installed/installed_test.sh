@@ -53,7 +53,7 @@ look_at_texts() {
   "$program" completions offer -- compare bumps --method >"$work/offered"
   expect "$work/offered" '--methods'
   [ -s "$prefix/share/doc/footprint/README.md" ] || fail "no README.md"
-  [ -s "$prefix/share/doc/footprint/docs/metrics.md" ] || fail "no documents where README.md looks for them"
+  [ -s "$prefix/share/doc/footprint/docs/reference/metrics.md" ] || fail "no documents where README.md looks for them"
   [ -s "$prefix/share/doc/footprint/copyright" ] || fail "no licence"
   [ -s "$prefix/lib/python3/dist-packages/footprint/__init__.py" ] || fail "no Python package"
 }

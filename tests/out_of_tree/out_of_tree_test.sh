@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A newcomer's first method: copies methods/template out of the tree under a new name, as docs/adding-a-method.md says,
+# A newcomer's first method: copies methods/template out of the tree under a new name, as docs/contributing/adding-a-method.md says,
 # builds it against this build folder, runs its tests and the program with it; then breaks its shader, which must fail.
 #   out_of_tree_test.sh SOURCE_FOLDER BUILD_FOLDER CMAKE [CMAKE_ARGUMENT ...]
 set -euo pipefail

@@ -266,7 +266,7 @@ class Comparison(unittest.TestCase):
             self.assertIn(fault, "".join(method_faults(method, (presets + table).replace(before, after))))
 
     def test_options_that_command_line_lacks_are_reported(self):
-        text = (SOURCE / "docs/command-line.md").read_text(encoding="utf-8")
+        text = (SOURCE / "docs/reference/command-line.md").read_text(encoding="utf-8")
         self.assertIn("--gltf-level", "".join(subcommand_faults("bake", text.replace("--gltf-level", "--other"))))
         self.assertIn("--other", "".join(subcommand_faults("bake", text.replace("`--gltf-level", "`--other"))))
 
@@ -287,7 +287,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(faults, [])
 
     def test_subcommands_and_their_options_are_those_of_the_program(self):
-        text = (SOURCE / "docs/command-line.md").read_text(encoding="utf-8")
+        text = (SOURCE / "docs/reference/command-line.md").read_text(encoding="utf-8")
         subcommands = re.findall(r"^  ([a-z]+)  ", help_of(), re.MULTILINE)
         self.assertEqual([word for word in subcommands if not re.search(rf"^## .*\b{word}\b", text, re.MULTILINE)], [])
         self.assertEqual([fault for word in subcommands for fault in subcommand_faults(word, text)], [])
@@ -300,7 +300,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(shown, set(listed("experiments")))
 
     def test_footprint_filters_are_those_of_the_program(self):
-        rows = table_below((SOURCE / "docs/filters.md").read_text(encoding="utf-8"), ["`--footprint`"])
+        rows = table_below((SOURCE / "docs/reference/filters.md").read_text(encoding="utf-8"), ["`--footprint`"])
         shown = [re.match("[a-z_]+", code(row[0])[0])[0] for row in rows]
         choices = " ".join(re.search(r"--footprint FILTER(.*?)\n  --|\Z", help_of("compare"), re.DOTALL)[1].split())
         self.assertEqual(shown, [word for word in re.findall(r"[a-z_]+(?=:N|\[:N|, anis)", choices)])

@@ -80,8 +80,8 @@ class Documents(unittest.TestCase):
 
     def test_words_of_code_links_and_generated_pages_pass(self):
         text = "`held` [it](docs/held.md)\n\n```\nheld\n```\n"
-        files = {"README.md": text, "docs/README.md": "[a](page.md) [b](held.md) [c](reproduction.md)\n",
-                 "docs/held.md": "# Page\n", "docs/reproduction.md": "held\n"}
+        files = {"README.md": text, "docs/README.md": "[a](page.md) [b](held.md) [c](results/reproduction.md)\n",
+                 "docs/held.md": "# Page\n", "docs/results/reproduction.md": "held\n"}
         self.assertEqual(self.lines_of(**files), (0, ["6 documents agree; the sources have 0 lines in 0 files"]))
 
     def test_sources_are_counted_without_tests(self):

@@ -87,11 +87,11 @@ class Document(Tree):
         out = self.write(NAME, document)
         done = script("reproduction", out, self.folder / "docs")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.text = (self.folder / "docs/reproduction/tan2005.md").read_text(encoding="utf-8")
+        self.text = (self.folder / "docs/results/reproduction/tan2005.md").read_text(encoding="utf-8")
 
     def faults(self, text=None):
         if text is not None:
-            (self.folder / "docs/reproduction/tan2005.md").write_text(text, encoding="utf-8")
+            (self.folder / "docs/results/reproduction/tan2005.md").write_text(text, encoding="utf-8")
         done = script("reproduction", "--check", self.folder / "docs")
         self.assertEqual(done.stderr, "")
         self.assertEqual(done.returncode, 1 if done.stdout else 0)
@@ -130,7 +130,7 @@ class Document(Tree):
         shutil.rmtree(self.folder / "out")
         out = self.write("tan2005_fig5", results(0.3, 0.4, **results_of_another))
         subprocess.run([copy / "scripts/reproduction", out, self.folder / "docs"], check=True)
-        return (self.folder / "docs/reproduction/tan2005.md").read_text(encoding="utf-8")
+        return (self.folder / "docs/results/reproduction/tan2005.md").read_text(encoding="utf-8")
 
     def test_another_run_leaves_what_it_did_not_measure(self):
         text = self.rewritten(lambda content: content.replace('text = "', 'text = "Newly said: '))
@@ -141,7 +141,7 @@ class Document(Tree):
 
     def test_a_claim_on_a_printed_figure_is_judged_by_its_row(self):
         table = "| Figure 6 | `fps(tan_gmm)` | 9 fps | 2.5 fps | note |\n| Figure 6 | `precompute(tan_gmm)` | 300 s | n/a | note |"
-        page = self.folder / "docs/reproduction/tan2005.md"
+        page = self.folder / "docs/results/reproduction/tan2005.md"
         page.write_text(self.text.replace("| claim |", f"{table}\n\n| claim |"), encoding="utf-8")
         wanted = ("fps(tan_gmm) >= 2.5", "fps(tan_gmm) > 2.5", "fps(tan_gmm) >= 9", "precompute(tan_gmm) <= 300", "fps(other) < 9")
         claims = "".join(f'[[claim]]\nname = "c{i}"\ntext = "t"\nsource = "ours"\ninequality = "{text}"\n'
@@ -163,7 +163,7 @@ class Document(Tree):
         self.assertIn("0.01 against 0.02 | reproduced; expected: not reproduced |", text)
 
     def test_claims_are_counted_by_their_source(self):
-        main = self.folder / "docs/reproduction.md"
+        main = self.folder / "docs/results/reproduction.md"
         text = main.read_text(encoding="utf-8")
         counted = next(line for line in text.splitlines() if line.startswith("| Tan et al. 2005: the paper's own |"))
         number, *outcomes = map(int, counted[2:-2].split(" | ")[1:])

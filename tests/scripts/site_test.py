@@ -34,7 +34,7 @@ class Site(unittest.TestCase):
         built = self.build("--scenes", "^ribbed_plane$")
         self.assertEqual(built.returncode, 0, built.stderr)
         site = self.folder / "site"
-        for name in ("index.html", "docs/specular-aliasing.html", "methods/toksvig/index.html", "api/structfootprint_1_1Method.html"):
+        for name in ("index.html", "docs/explanation/specular-aliasing.html", "methods/toksvig/index.html", "api/structfootprint_1_1Method.html"):
             self.assertTrue((site / name).is_file(), name)
         gallery = (site / "gallery.html").read_text(encoding="utf-8")
         strip, report = re.search(r'src="(reports/ribbed_plane/images/[^"]+_all.png)"', gallery)[1], "reports/ribbed_plane/index.html"

@@ -8,7 +8,7 @@
 
 namespace footprint::testing {
 
-/// D of the base BRDF at h about n, lobe parameter as in docs/base-brdf.md.
+/// D of the base BRDF at h about n, lobe parameter as in docs/explanation/base-brdf.md.
 [[nodiscard]] double base_density(NormalDistribution distribution, double lobe, const glm::dvec3& n,
                                   const glm::dvec3& h);
 

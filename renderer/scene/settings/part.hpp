@@ -1,4 +1,4 @@
-// What scene.toml draws: the parts of a scene as plain values; docs/scenes.md is its reference.
+// What scene.toml draws: the parts of a scene as plain values; docs/reference/scenes.md is its reference.
 #pragma once
 
 #include <cstdint>

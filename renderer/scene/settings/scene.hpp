@@ -1,4 +1,4 @@
-// scene.toml as a plain value; docs/scenes.md is its reference.
+// scene.toml as a plain value; docs/reference/scenes.md is its reference.
 #pragma once
 
 #include <filesystem>

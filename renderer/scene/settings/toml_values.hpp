@@ -67,6 +67,6 @@ template <class Value, std::size_t count>
 /// Throws Error (usage): the table lacks a required key.
 /// document: the one that explains the key.
 [[noreturn]] void refuse_missing(const TomlTable& table, std::string_view key,
-                                 std::string_view document = "docs/scenes.md");
+                                 std::string_view document = "docs/reference/scenes.md");
 
 }  // namespace footprint

@@ -2,7 +2,7 @@
 name = "fixed_brdf"
 summary = "The finest level's reflectance at any distance, over geometry that is filtered."
 paper = "Tan, Lin, Quan, Guo, Shum 2005, Multiresolution Reflectance Filtering, EGSR (its comparison, figure 8)"
-reads = ["mean_normal", "finest_roughness"]
+reads = ["mean_direction", "finest_roughness"]
 leaves_out = ["anisotropic_lobe", "normal_layers"]
 */
 // Filters geometry but not reflectance: the renormalised mean normal with the lobe of the texel at the pixel's centre (Tan

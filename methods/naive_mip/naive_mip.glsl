@@ -2,7 +2,7 @@
 name = "naive_mip"
 summary = "Mip maps of normal and roughness: the mean normal, renormalised, and the mean roughness."
 paper = "Williams 1983, Pyramidal Parametrics (the mip map itself)"
-reads = ["mean_normal", "mean_roughness if averages_roughness", "mean_lobe if averages_lobe"]
+reads = ["mean_direction", "mean_roughness if averages_roughness", "mean_lobe if averages_lobe"]
 
 [[option]]
 name = "averages"

@@ -76,7 +76,7 @@ const Method& specular_aa_method() {
                         "bake", bakes(),
                         "What the roughness mips already contain: nothing, or what roughness_bake with this preset "
                         "bakes."),
-                    storage_option()},
+                    block_storage_option(true)},
                .honours = map_effects_but({Effect::anisotropic_lobe}),
                .screen_derivatives = true},
       .precompute = precompute,

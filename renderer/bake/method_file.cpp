@@ -58,8 +58,9 @@ Prefiltered mean_roughness(const Job& job) { return bake_mean_roughness(job.mate
 
 Prefiltered mean_lobe(const Job& job) {
   if (!has(job.effects, Effect::roughness_variation)) return {};
-  if (job.storage == Storage::unorm8) {
-    throw Error(ErrorKind::usage, "mean_lobe", "storage=unorm8 cannot store lobe parameters",
+  if (is_coarse(job.storage)) {
+    throw Error(ErrorKind::usage, "mean_lobe",
+                fmt::format("storage={} cannot store lobe parameters", storage_name(job.storage)),
                 "give storage=fp32 or storage=fp16");
   }
   return {.textures = {make_texture("mean_lobe", mip_chain(lobe_parameter_map_of(job.material)), job.storage,
@@ -69,7 +70,8 @@ Prefiltered mean_lobe(const Job& job) {
 
 Prefiltered finest_roughness(const Job& job) {
   if (!has(job.effects, Effect::roughness_variation)) return {};
-  return {.textures = {make_level_texture("finest_roughness", roughness_map_of(job.material), job.storage,
+  return {.textures = {make_level_texture("finest_roughness", roughness_map_of(job.material),
+                                          is_block(job.storage) ? Storage::bc4 : job.storage,
                                           roughness_coordinates(job.material))},
           .scalars = {}};
 }
@@ -90,10 +92,11 @@ struct Input {
 };
 
 std::vector<OptionSpec> storage_alone() { return {storage_option()}; }
-std::vector<OptionSpec> blocks() { return {block_storage_option(false)}; }
+std::vector<OptionSpec> any_blocks() { return {block_storage_option(true)}; }
 
-constexpr std::array<Input, 8> inputs{
-    {{"mean_normal", mean_normal, blocks},
+constexpr std::array<Input, 9> inputs{
+    {{"mean_normal", mean_normal, [] { return std::vector{block_storage_option(false)}; }},
+     {"mean_direction", mean_normal, any_blocks},  // the same texture, of which a module ignores the length
      {"lobe_variance", lobe_variance,
       [] {
         return std::vector{block_storage_option(false), roughness_mean_option()};
@@ -103,10 +106,10 @@ constexpr std::array<Input, 8> inputs{
         return std::vector{float_storage_option(), slope_roughness_option(), steepest_slope_option(),
                            slope_variant_option()};
       }},
-     {"mean_roughness", mean_roughness, storage_alone},
-     {"mean_lobe", mean_lobe, storage_alone},
+     {"mean_roughness", mean_roughness, any_blocks},
+     {"mean_lobe", mean_lobe, any_blocks},
      {"finest_normal", finest_normal, storage_alone},
-     {"finest_roughness", finest_roughness, storage_alone},
+     {"finest_roughness", finest_roughness, any_blocks},
      {"screen_derivatives", [](const Job&) { return Prefiltered{}; }, [] { return std::vector<OptionSpec>{}; }}}};
 
 // An input that is baked if an option has a word; an empty option: always.

@@ -107,6 +107,21 @@ TEST(MethodFile, BakesWhatItReads) {
   EXPECT_EQ(baked_by(*method, {{"storage", "fp16"}, {"roughness_mean", "concentration"}}).textures, wanted);
   EXPECT_TRUE(method->precompute(material, Options(method->info.options, {}, ""), {}, no_progress).textures.empty());
   EXPECT_THROW((void)baked_by(*method, {{"storage", "unorm8"}}), Error) << "bytes store no lobe parameter";
+  EXPECT_THROW((void)baked_by(*method, {{"storage", "bc1"}}), Error) << "finest_normal has no blocks";
+}
+
+TEST(MethodFile, BakesBlocksOfDirections) {
+  const auto storages = [](const char* reads, const char* storage) {
+    std::vector<Storage> out;
+    for (const PrefilteredTexture& t : baked_by(*method_with(reads), {{"storage", storage}}).textures)
+      out.push_back(t.storage);
+    return out;
+  };
+  const char* const direction = "reads = [\"mean_direction\", \"mean_roughness\", \"finest_roughness\"]\n";
+  EXPECT_EQ(storages(direction, "bc5"), (std::vector{Storage::bc5, Storage::bc4, Storage::bc4}));
+  EXPECT_EQ(storages(direction, "bc1"), (std::vector{Storage::bc1, Storage::bc4, Storage::bc4}));
+  EXPECT_THROW((void)storages("reads = [\"mean_normal\"]\n", "bc5"), Error) << "its length has no channel";
+  EXPECT_THROW((void)storages("reads = [\"mean_direction\", \"mean_lobe\"]\n", "bc1"), Error);
 }
 
 TEST(MethodFile, BakesSlopeMomentsAsLeanDoes) {

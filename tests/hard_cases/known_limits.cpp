@@ -42,14 +42,17 @@ void add_storages(Limits& limits) {
              rounded, "limit", 1.25,
              "bytes turn a normal by up to 0.4 degrees: lobes of exponents up to 50, and their horizon");
   constexpr std::string_view blocks = "8 bits of bc5, and 5 or 6 bits of bc1, turn a normal by up to 0.4 and 3 degrees";
-  const Words bc1{"toksvig:storage=bc1", "roughness_bake:storage=bc1"};
+  const Words bc1{"toksvig:storage=bc1", "naive_mip:storage=bc1", "fixed_brdf:storage=bc1",
+                  "roughness_bake:storage=bc1", "specular_aa:storage=bc1"};
+  const Words bc5{"naive_mip:storage=bc5", "fixed_brdf:storage=bc5", "roughness_bake:storage=bc5",
+                  "specular_aa:storage=bc5"};
   limits.add(bc1, rounded, "limit", 1.25, blocks);
   limits.add(bc1, {"blinn_phong_64_on_45"}, "limit", 0.12, blocks);
   limits.add(bc1, {"beckmann_1_on_10"}, "limit", 0.05, blocks);
   limits.add({"toksvig:storage=bc1"}, {"blinn_phong_64_on_80", "ggx_0_1_on_10"}, "energy", 0.054, blocks);
-  limits.add({"roughness_bake:storage=bc5"}, rounded, "limit", 1.25, blocks);
-  limits.add({"roughness_bake:storage=bc5"}, {"blinn_phong_64_on_45"}, "limit", 0.034, blocks);
-  limits.add({"roughness_bake:storage=bc5"}, {"blinn_phong_64_on_80"}, "energy", 0.055, blocks);
+  limits.add(bc5, rounded, "limit", 1.25, blocks);
+  limits.add(bc5, {"blinn_phong_64_on_45"}, "limit", 0.034, blocks);
+  limits.add(bc5, {"blinn_phong_64_on_80"}, "energy", 0.055, blocks);
   limits.add({"naive_mip:storage=fp16", "fixed_brdf:storage=fp16", "toksvig:storage=fp16",
               "roughness_bake:storage=fp16", "specular_aa:storage=fp16", "xu_vmf:storage=fp16", "tan_gmm:storage=fp16"},
              {"blinn_phong_1000000_on_10", "vmf_1000000_on_10", "ggx_0_001_on_10", "beckmann_0_001_on_10"}, "limit",

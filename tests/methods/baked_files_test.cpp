@@ -108,8 +108,9 @@ TEST(BakedFilesOf, BuiltMapsDrawFootprintsPicture) {
 
 // Bytes from KTX2 alone: llvmpipe filters them in 8 bits, and the same numbers from EXR in 32.
 TEST(BakedFilesOf, SmallerStoragesDrawFootprintsPicture) {
-  for (const std::string text : {"toksvig:storage=unorm8", "lean:storage=fp16", "roughness_bake:storage=unorm8",
-                                 "roughness_bake:storage=bc5", "toksvig:storage=bc1"})
+  for (const std::string text :
+       {"toksvig:storage=unorm8", "lean:storage=fp16", "roughness_bake:storage=unorm8", "roughness_bake:storage=bc5",
+        "toksvig:storage=bc1", "naive_mip:storage=bc5", "naive_mip:storage=bc1", "fixed_brdf:storage=bc5"})
     EXPECT_LT(difference_from_the_pipeline(text, MapFiles::ktx2), 1e-3) << text;
   EXPECT_LT(difference_from_the_pipeline("lean:storage=fp16", MapFiles::exr), 1e-3);
 }

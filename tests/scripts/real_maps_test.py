@@ -110,7 +110,7 @@ class RealMaps(unittest.TestCase):
         missing = self.study()
         self.assertEqual(missing.returncode, 1)
         self.assertIn("has no results", missing.stderr)
-        done = self.study("--run", "--quick", "--parts", "development_main")
+        done = self.study("--run", "--quick", "--parts", "development_(main|storage)")
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = {row[1].strip("` *"): row[2:-1] for row in (re.split(r" ?\| ?", line) for line in done.stdout.split("### Pairs")[0].splitlines())
                 if row[0] == "" and len(row) == 5}
@@ -120,6 +120,11 @@ class RealMaps(unittest.TestCase):
         self.assertEqual(len(errors), 48)
         self.assertLess(errors["tan_gmm:n=8"], errors["naive_mip"])
         self.assertRegex(done.stdout, r"`tan_gmm:n=4` has [\d.]+ \([\d.]+ to [\d.]+\)\s+of\s+the\s+error\s+of\s+`lean`")
+        storages = {tuple(row[1:3]): row[3:6] for row in (re.split(r" ?\| ?", line) for line in done.stdout.split("### Storages")[1].splitlines())
+                    if len(row) == 7}
+        self.assertEqual(storages["`naive_mip`", "`fp16`"][1:], ["1 (1 to 1)", "1"])
+        self.assertAlmostEqual(float(storages["`naive_mip`", "`bc5`"][0]), 4 / 3, delta=0.05)  # 8 bits per texel, and its mips
+        self.assertNotEqual(storages["`toksvig`", "`bc1`"][2], "1")
         self.assertIn("## Held-out maps\n\nNot run.", done.stdout)
         members = list((self.folder / "results/development_main").glob("*/results.json"))
         self.assertEqual([json.loads(member.read_text())["pairs"] for member in members], [[], []], "more than 24 methods")

@@ -102,6 +102,7 @@ std::string page_html(const Page& page, const nlohmann::ordered_json& own) {
             {"shown", page.shown},
             {"sections", sections_json(page.sections)},
             {"provenance", Json::array()},
+            {"palette", Json::parse(find_text(page_texts, "palette.json")->text)},
             {"scale_colors", scale_colors()}};
   for (const Provenance& line : page.provenance)
     data["provenance"].push_back({{"label", line.label}, {"value", line.value}});

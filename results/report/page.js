@@ -17,10 +17,7 @@ const dark = window.matchMedia('(prefers-color-scheme: dark)');
 const paper = window.matchMedia('print');
 
 // Okabe and Ito's colours, distinct for every kind of colour vision; each with a mark of its own.
-const palette = {
-  light: ['#0072b2', '#d55e00', '#007a5a', '#b5488a', '#b07a00', '#2b8cc4', '#444444'],
-  dark: ['#4aa8e8', '#ff8a3c', '#2fc79a', '#e79cc8', '#f0c040', '#8fd3ff', '#d0d0d0'],
-};
+const {palette} = data;
 const marks = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot'];
 
 /** The value at a JSON pointer into a record. */
@@ -36,7 +33,24 @@ function element(tag, className, ...children) {
 
 const byId = (id) => document.getElementById(id);
 const theme = () => (dark.matches && !paper.matches ? 'dark' : 'light');
-const seriesColor = (method) => palette[theme()][Math.max(0, methods.indexOf(method)) % palette.light.length];
+
+/** {method: the place of its colour}: the same in all reports. Of two methods that share it the second takes the next free one. */
+function colorPlaces() {
+  const order = [...new Set([...palette.methods, ...methods.map((method) => method.split(':')[0])])];
+  const known = (method) => order.indexOf(method.split(':')[0]);
+  const places = new Map(), taken = new Set(), count = palette.light.length;
+  for (const method of [...methods].sort((a, b) => known(a) - known(b))) {
+    if (taken.size === count) taken.clear();
+    let place = known(method) % count;
+    while (taken.has(place)) place = (place + 1) % count;
+    taken.add(place);
+    places.set(method, place);
+  }
+  return places;
+}
+
+const placeOfColor = colorPlaces();
+const seriesColor = (method) => palette[theme()][placeOfColor.get(method) ?? 0];
 const styleValue = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // The members that pass the filters, of which the first is shown in detail, and its records at one distance.

@@ -3,6 +3,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -45,6 +46,12 @@ class QuickStudy(unittest.TestCase):
                               for row in ("none", "jitter"))
             self.assertLess(history, 0.6 * frame)
             self.assertEqual(study().stdout, done.stdout)
+
+    def test_a_method_has_the_same_colour_in_all_figures(self):
+        methods = ["direct", "naive_mip", "toksvig", "toksvig:storage=unorm8"]
+        asked = f"import study; print(*study.colours_of({methods}).values())"
+        done = subprocess.run([sys.executable, "-B", "-c", asked], cwd=SOURCE / "scripts", capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.split(), ["#444444", "#2b8cc4", "#0072b2", "#d55e00"], "as page_test has it of the page")
 
 
 if __name__ == "__main__":

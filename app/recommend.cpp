@@ -18,6 +18,7 @@
 #include "app/folders.hpp"
 #include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
+#include "app/number_check.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
@@ -165,7 +166,7 @@ void add_recommend_command(CLI::App& app) {
                     ->add_option("--max-bytes", arguments->limits.max_bytes,
                                  "Choose the most accurate with at most this many bytes of maps per material")
                     ->type_name("N")
-                    ->check(CLI::NonNegativeNumber);
+                    ->check(within(0.0, 1e18));
   error->excludes(cost)->excludes(bytes);
   cost->excludes(bytes);
   command

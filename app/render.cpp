@@ -10,6 +10,7 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
+#include "app/number_check.hpp"
 #include "app/output.hpp"
 #include "app/progress_display.hpp"
 #include "app/run_options.hpp"
@@ -108,7 +109,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "The image, .exr or .png")->type_name("FILE")->required();
   command->add_option("--frame", arguments->zoom_frame, "Frame of the scene's zoom path, from 0")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber)
+      ->check(within(0.0, 1e6))
       ->excludes(command->get_option("--distance"));
   add_quiet_flag(*command, arguments->quiet);
   command->footer(render_examples);

@@ -26,7 +26,7 @@ std::vector<Case> wrong_recommendations() {
       row("RecommendWithinANegativeCost", {"v_grooves", "--max-cost", "-1"}, {"--max-cost", "above 0"}),
       row("RecommendWithinNoNumber", {"v_grooves", "--max-cost", "nan"}, {"--max-cost", "above 0"}),
       row("RecommendWithinWords", {"v_grooves", "--max-error", "little"}, {"--max-error"}),
-      row("RecommendWithinNegativeBytes", {"v_grooves", "--max-bytes", "-5"}, {"--max-bytes"}),
+      row("RecommendWithinNegativeBytes", {"v_grooves", "--max-bytes", "-5"}, {"--max-bytes", "0 to 1e+18"}),
       row("RecommendUnderAWrongFilter", {"v_grooves", "--footprints", "trilinear,anistropic:8"},
           {"--footprints", "did you mean `anisotropic`?"}),
       row("RecommendUnderAFilterWithoutItsNumber", {"v_grooves", "--footprints", "shaded"}, {"--footprints", "shaded"}),

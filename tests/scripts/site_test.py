@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -31,7 +32,11 @@ class Site(unittest.TestCase):
         return subprocess.run([SOURCE / "scripts/site", self.folder / "site", *words], capture_output=True, text=True, check=False)
 
     def test_it_has_documents_gallery_search_and_headers(self):
-        built = self.build("--scenes", "^ribbed_plane$")
+        maps = self.folder / "maps"
+        shutil.copytree(SOURCE / "scenes/ribbed_plane", maps / "lines_02")
+        entry = {"part": "development", "class": "lines", "file": "a_Normal.png", "package": "some-data", "scenes": {"main": ["lines_02"]}}
+        (maps / "maps.json").write_text(json.dumps({"maps": [entry, {**entry, "scenes": {}}, {**entry, "part": "held_out", "class": "flat"}]}))
+        built = self.build("--scenes", "^ribbed_plane$", "--maps", maps)
         self.assertEqual(built.returncode, 0, built.stderr)
         site = self.folder / "site"
         for name in ("index.html", "docs/explanation/specular-aliasing.html", "methods/toksvig/index.html", "api/structfootprint_1_1Method.html"):
@@ -40,6 +45,7 @@ class Site(unittest.TestCase):
         strip, report = re.search(r'src="(reports/ribbed_plane/images/[^"]+_all.png)"', gallery)[1], "reports/ribbed_plane/index.html"
         self.assertTrue((site / strip).is_file())
         self.assertIn(f'href="{report}"', gallery)
+        self.assertEqual(re.findall(r'<h2 id="(\w+)">', gallery), ["ribbed_plane", "map_lines"])
         self.assertTrue((site / report).is_file())
         record = json.loads((site / "reports/ribbed_plane/results.json").read_text(encoding="utf-8"))["records"][0]
         self.assertIn(f"<code>{record['method']}</code> {record['error']['shading']:.3g}", gallery)

@@ -70,6 +70,14 @@ class Documents(unittest.TestCase):
                                  "README.md:2: `Samples a pixel`: better per", "docs/page.md:1: `Likewise`: better also",
                                  "docs/page.md:1: `lobes a pixel`: better per"])
 
+    def test_long_sentences_and_pages_are_reported(self):
+        fits, word = f"{24 * 'word '}`two words`", "word "
+        text = f"# {30 * word}\n\n{fits}. {fits}:\n- {fits}\n- {fits}\n\n| {30 * word}|\n\n```\n{30 * word}\n```\n\n"
+        self.assertEqual(self.lines_of(**{"README.md": text})[0], 0)
+        self.assertEqual(self.lines_of(**{"README.md": f"{text}One. Two\nand {fits} more."}),
+                         (1, ["README.md:13: a sentence of 28 words: 25 are allowed"]))
+        self.assertEqual(self.lines_of(**{"README.md": 2201 * "word. "}), (1, ["README.md:1: 2201 words: 2200 are allowed"]))
+
     def test_words_of_strings_count_and_those_of_code_do_not(self):
         code, lines = self.lines_of(**{"app/a.cpp": '// held\n#include "told.hpp"\nconst char* held = "bakes \\"anew\\"";\n',
                                    "results/report/b.js": "// held\nlet told = 'mend'\n",

@@ -188,6 +188,25 @@ class PythonPackage(WholeRunTest):
         file.chmod(0o755)
         return mock.patch.dict(os.environ, FOOTPRINT_PROGRAM=str(file))
 
+    def test_an_animation_has_the_flicker_of_its_file(self):
+        film = footprint.animate("ribbed_plane", ["direct", "toksvig"], self.folder / "film", frames=3, **(SMALL | {"repeats": None}))
+        plain = results_of(self.folder / "film")
+        means = {(r["method"], r["frame"]): r["flicker"]["mean"] for r in plain["records"] if r["flicker"]}
+        found = film.array("flicker.mean", by=("method", "frame"))
+        self.assertEqual(found.shape, (2, 3))
+        self.assertTrue(numpy.isnan(found[:, 0]).all(), "nothing is before the first frame")
+        self.assertEqual({(m, f): found[film.axis("method").index(m), film.axis("frame").index(f)] for m, f in means}, means)
+
+    def test_a_cost_is_that_of_its_file(self):
+        found = footprint.cost("ribbed_plane", self.folder / "cost", methods=["direct", "toksvig"], quiet=True)
+        self.assertEqual(found, json.loads((self.folder / "cost/cost.json").read_text(encoding="utf-8")))
+        again = footprint.cost("ribbed_plane", methods=["direct", "toksvig"], quiet=True)  # in a folder of its own
+
+        def estimates(document):
+            return re.sub(r'"compile_seconds": [^,}]*', "", json.dumps(document))
+
+        self.assertEqual(estimates(found), estimates(again))
+
     def test_keyword_arguments_become_options(self):
         with self.stand_in("echo", "printf '%s\\n' \"$@\""):
             words = footprint.run_program("x", pathlib.Path("a b"), from_=1, no_cache=True, quiet=False, seed=None,

@@ -134,20 +134,23 @@ def wrapped(text):
 
 # ---- charts
 
-PALETTE = load_results(ROOT / "results/report/palette.json")
+def palette():
+    """The colours of all reports and figures, and the methods in the order in which they choose."""
+    return load_results(ROOT / "results/report/palette.json")
 
 
 def colours_of(methods):
     """{method: its colour}, as in all reports (colorPlaces in results/report/page.js)."""
-    names = list(dict.fromkeys(PALETTE["methods"] + [method.split(":")[0] for method in methods]))
+    colours, order = palette()["light"], palette()["methods"]
+    names = list(dict.fromkeys(order + [method.split(":")[0] for method in methods]))
 
     def known(method):
         return names.index(method.split(":")[0])
 
-    found, count = {}, len(PALETTE["light"])
+    found, count = {}, len(colours)
     for i, method in enumerate(sorted(methods, key=known)):
         taken = list(found.values())[i // count * count:]
-        turned = [PALETTE["light"][(known(method) + turn) % count] for turn in range(count)]
+        turned = [colours[(known(method) + turn) % count] for turn in range(count)]
         found[method] = next(colour for colour in turned if colour not in taken)
     return {method: found[method] for method in methods}
 

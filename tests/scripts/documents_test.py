@@ -57,9 +57,11 @@ class Documents(unittest.TestCase):
         lines = self.lines_of(**{"docs/images/README.md": listed, "docs/images/a.png": "", "docs/images/b.png": ""})
         self.assertEqual(lines, (1, ["docs/images/README.md:1: no command makes b.png", "docs/images/README.md:1: there is no gone/*.png"]))
 
-    def test_pictures_that_are_too_large_together_are_reported(self):
-        files = {"docs/images/README.md": "| `a.txt` | a command |\n", "docs/images/a.txt": 6_000_000 * "x"}
-        self.assertEqual(self.lines_of(**files)[1][:1], ["docs/images: 6000024 bytes: 6000000 are allowed"])
+    def test_pictures_that_are_too_large_or_name_folders_are_reported(self):
+        files = {"docs/images/README.md": "| `a.txt` | a command |\n", "docs/images/a.txt": 6_000_001 * "x"}
+        self.assertEqual(self.lines_of(**files)[1][:1], ["docs/images: 6000001 bytes: 6000000 are allowed"])
+        files["docs/images/a.txt"] = "Exif\noiiotool /home/name/a.png -o a.txt"
+        self.assertEqual(self.lines_of(**files)[1][:1], ["docs/images/a.txt: has a command line; add --nosoftwareattrib"])
 
     def test_versions_that_differ_are_reported(self):
         code, lines = self.lines_of(**{"CITATION.cff": "version: 1.2.2\n", "CHANGELOG.md": "# Changes\n"})

@@ -208,7 +208,7 @@ def check_first_sight(browser):
         return new Set(new Uint32Array(bytes.buffer)).size""")
     assert drawn > 20, f"the plot has {drawn} colours"
     colours = browser.run("return methods.map((method) => palette.light[placeOfColor.get(method)])")
-    assert colours == ["#444444", "#2b8cc4", "#0072b2", "#d55e00"], f"methods have the colours of other figures: {colours}"
+    assert colours == ["#444444", "#b5488a", "#0072b2", "#d55e00"], f"methods have the colours of other figures: {colours}"
     labels = browser.run("return Chart.getChart('plot').data.datasets.map((set) => set.label)")
     assert labels == ["direct", "naive_mip", "toksvig", "toksvig:storage=unorm8", "plain supersampling",
                       "noise floor", "Pareto front"], labels

@@ -51,7 +51,7 @@ class QuickStudy(unittest.TestCase):
         methods = ["direct", "naive_mip", "toksvig", "toksvig:storage=unorm8"]
         asked = f"import study; print(*study.colours_of({methods}).values())"
         done = subprocess.run([sys.executable, "-B", "-c", asked], cwd=SOURCE / "scripts", capture_output=True, text=True, check=True)
-        self.assertEqual(done.stdout.split(), ["#444444", "#2b8cc4", "#0072b2", "#d55e00"], "as page_test has it of the page")
+        self.assertEqual(done.stdout.split(), ["#444444", "#b5488a", "#0072b2", "#d55e00"], "as page_test has it of the page")
 
 
 if __name__ == "__main__":

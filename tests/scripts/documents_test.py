@@ -53,12 +53,13 @@ class Documents(unittest.TestCase):
         self.assertEqual(lines, (1, ["docs/README.md:1: new.md is not in the map"]))
 
     def test_a_picture_without_a_command_is_reported(self):
-        listed = "| picture | command |\n|---|---|\n| `a.png` | `x` |\n| `gone/*.png` | `y` |\n"
-        lines = self.lines_of(**{"docs/images/README.md": listed, "docs/images/a.png": "", "docs/images/b.png": ""})
-        self.assertEqual(lines, (1, ["docs/images/README.md:1: no command makes b.png", "docs/images/README.md:1: there is no gone/*.png"]))
+        files = {"docs/images/README.md": "| picture | part |\n|---|---|\n| `a.png` | some |\n| `gone/*.png` | other |\n",
+                 "scripts/doc_pictures": "| part | makes |\n| some | a.png |\n", "docs/images/a.png": "", "docs/images/b.png": ""}
+        self.assertEqual(self.lines_of(**files), (1, [f"docs/images/README.md:1: {fault}" for fault in (
+            "no command makes b.png", "there is no gone/*.png", "scripts/doc_pictures has no part other")]))
 
     def test_pictures_that_are_too_large_or_name_folders_are_reported(self):
-        files = {"docs/images/README.md": "| `a.txt` | a command |\n", "docs/images/a.txt": 6_000_001 * "x"}
+        files = {"docs/images/README.md": "| `a.txt` | some |\n", "scripts/doc_pictures": "| some |\n", "docs/images/a.txt": 6_000_001 * "x"}
         self.assertEqual(self.lines_of(**files)[1][:1], ["docs/images: 6000001 bytes: 6000000 are allowed"])
         files["docs/images/a.txt"] = "Exif\noiiotool /home/name/a.png -o a.txt"
         self.assertEqual(self.lines_of(**files)[1][:1], ["docs/images/a.txt: has a command line; add --nosoftwareattrib"])

@@ -53,9 +53,12 @@ if(FOOTPRINT_SANITIZE)
   set(FOOTPRINT_TEST_SECONDS 3000)
 endif()
 
-# footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry. It draws hundreds of programs
-# once each, so llvmpipe's compiler leaves its optimisation passes out, which takes a tenth to two fifths off where no
-# program is cached by an earlier run; other drivers do not know the word. The end-to-end tests draw as users do.
+# Tests draw hundreds of programs once each, so llvmpipe's compiler leaves its optimisation passes out, which takes a tenth
+# to two fifths off where no program is cached by an earlier run; other drivers do not know the word. Threads of OpenMP,
+# which a library of OpenImageIO starts, sleep while they wait. The end-to-end tests draw as users do.
+set(FOOTPRINT_TEST_ENVIRONMENT GALLIVM_PERF=nopt OMP_WAIT_POLICY=passive)
+
+# footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry.
 function(footprint_add_test name)
   if(NOT FOOTPRINT_TESTS)
     return()
@@ -67,7 +70,7 @@ function(footprint_add_test name)
   footprint_reuse_headers(${name} footprint_precompiled_tests)
   footprint_unite(${name})
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${FOOTPRINT_TEST_SECONDS} ENVIRONMENT GALLIVM_PERF=nopt)
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${FOOTPRINT_TEST_SECONDS} ENVIRONMENT "${FOOTPRINT_TEST_ENVIRONMENT}")
 endfunction()
 
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in

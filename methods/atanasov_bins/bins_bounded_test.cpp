@@ -240,7 +240,8 @@ constexpr std::array<LightCount, 5> light_counts{
 // Pixels of 128 x 128 texels, each light with a 65535th part of fewer rounds (README): none is left out.
 TEST(AtanasovBounded, ManyLightsAreAsOne) {
   for (const Kind kind : kinds) {
-    for (const NormalDistribution distribution : {NormalDistribution::beckmann, NormalDistribution::ggx}) {
+    for (const NormalDistribution distribution :
+         sweep(std::array{NormalDistribution::beckmann, NormalDistribution::ggx}, 1, static_cast<std::size_t>(kind))) {
       const Scene scene = lit_square(kind, distribution);
       const Image exact = picture(scene, 1, exact_method(), "exact:kernel=areas:texels=256");
       const std::size_t first = static_cast<std::size_t>(kind) + (distribution == NormalDistribution::ggx ? 2 : 0);
@@ -260,7 +261,7 @@ TEST(AtanasovBounded, ManyLightsAreAsOneInEveryMode) {
                                                              {"atanasov_bins:border=texels", 0.1},
                                                              {"atanasov_bins:footprint=box", 0.09},
                                                              {"atanasov_bins:footprint=filter", 0.22}}};
-  for (const auto& [text, error] : modes) {
+  for (const auto& [text, error] : sweep(modes, 3)) {
     const Image one = picture(scene, 1, atanasov_bins_method(), text);
     const Image many = picture(scene, 48, atanasov_bins_method(), text);
     EXPECT_LT(compare_images(many, one, 1.0F).value().relative_rmse, error) << text;

@@ -172,7 +172,7 @@ struct Comparison {
 TEST(BestLobes, ErrNoMoreAtAnyTexelThanMethodsOfAsManyLobes) {
   constexpr double rounding = 1e-4;  // of the distribution's norm: pooled normals, the lattice, 32-bit floats
   const std::vector<Image> maps = rough_maps();
-  for (std::size_t i = 0; i < bases.size(); ++i) {
+  for (const std::size_t i : sweep(std::array<std::size_t, bases.size()>{0, 1, 2, 3}, 2)) {
     TexelErrors errors(lobe_material(maps[i % maps.size()], bases[i].distribution, bases[i].lobe));
     Comparison stretched, round, fewer;
     std::vector<double> before, round_before;
@@ -218,7 +218,7 @@ Material material_of_two_roughnesses(const Image& normals, NormalDistribution di
 TEST(BestLobes, ErrNoMoreWhereTexelsHaveARoughnessOfTheirOwn) {
   constexpr double rounding = 1e-4;
   const std::vector<Image> maps = rough_maps();
-  for (std::size_t i = 0; i < bases.size(); ++i) {
+  for (const std::size_t i : sweep(std::array<std::size_t, bases.size()>{0, 1, 2, 3}, 2, 2)) {
     TexelErrors errors(material_of_two_roughnesses(maps[i % maps.size()], bases[i].distribution, i % 2 == 0));
     Comparison comparison;
     std::vector<double> before;

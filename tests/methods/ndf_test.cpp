@@ -281,13 +281,14 @@ class SurfaceNdfs : public ::testing::TestWithParam<std::tuple<std::string, doub
 };
 
 // Every method's density has the integral of the exact one, within 1%. Slow methods have a smaller map. By default one
-// exponent per surface.
+// exponent per surface, and half of the methods.
 TEST_P(SurfaceNdfs, KeepTheExactEnergy) {
   const auto& [surface, exponent] = GetParam();
   const bool is_wide = surface == "bumps" || surface == "scales";
   if (!all_tests() && is_wide != (exponent < 100.0)) GTEST_SKIP() << "only with scripts/test --all";
   Inspection inspected = inspection(128, energy_rings), small = inspection(48, energy_rings);
-  for (const Method* method : all_methods()) {
+  const std::size_t half = (all_methods().size() + 1) / 2;
+  for (const Method* method : sweep(all_methods(), half, surface == "bumps" || surface == "v_grooves" ? 0 : half)) {
     const NdfFigures figures =
         (method->info.slow_frame || method->info.slow_precompute ? small : inspected).figures(method->info.name);
     EXPECT_NEAR(figures.energy, 1.0, 0.01) << method->info.name << ", L2 " << figures.l2;

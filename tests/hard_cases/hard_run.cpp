@@ -240,7 +240,12 @@ class Run {
   void run(const Sweep& sweep, const Progress& progress) {
     context_.make_current();
     std::vector<MethodSpec> methods = methods_;
-    if (settings_.methods.empty() && !sweep.also.empty()) methods.push_back(parse_methods(sweep.also).front());
+    if (!sweep.also.empty()) {
+      const MethodSpec also = parse_methods(sweep.also).front();
+      const std::string& name = find_method(also).info.name;
+      if (std::ranges::any_of(methods, [&](const MethodSpec& spec) { return spec.text == name; }))
+        methods.push_back(also);
+    }
     std::vector<std::optional<std::vector<float>>> before(methods.size());
     std::vector<double> largest(methods.size(), 0.0), most_lost(methods.size(), 0.0);
     std::vector<double> exact;

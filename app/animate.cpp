@@ -20,7 +20,6 @@
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/part_file.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/compare.hpp"
 #include "renderer/core/error.hpp"

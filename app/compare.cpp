@@ -6,13 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "app/child_process.hpp"
 #include "app/commands.hpp"
-#include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "app/timing_process.hpp"
 #include "experiments/studies/compare.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/report.hpp"

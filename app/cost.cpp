@@ -5,11 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "app/child_process.hpp"
 #include "app/commands.hpp"
-#include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/gpu_cost.hpp"
 

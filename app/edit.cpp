@@ -9,7 +9,6 @@
 #include "app/commands.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/edit.hpp"
 #include "renderer/core/error.hpp"

@@ -15,7 +15,6 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/stage.hpp"

@@ -13,7 +13,6 @@
 #include "app/experiment_runs.hpp"
 #include "app/output.hpp"
 #include "app/part_file.hpp"
-#include "app/requested_experiments.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/distance_result.hpp"
 #include "renderer/core/error.hpp"

@@ -10,10 +10,8 @@
 #include <utility>
 
 #include "app/commands.hpp"
-#include "app/map_options.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"

@@ -1,5 +1,5 @@
 // The progress display on a made-up clock.
-#include "app/progress_display.hpp"
+#include "app/messages.hpp"
 
 #include <gtest/gtest.h>
 

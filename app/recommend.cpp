@@ -13,14 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/child_process.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
-#include "app/gpu_compiler.hpp"
 #include "app/messages.hpp"
-#include "app/number_check.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/quick_advice.hpp"
 #include "renderer/core/error.hpp"

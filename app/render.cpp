@@ -10,11 +10,9 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
-#include "app/number_check.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
-#include "experiments/studies/method_frames.hpp"
+#include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/child_process.hpp"
 #include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
@@ -19,10 +20,7 @@
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/part_file.hpp"
-#include "app/progress_display.hpp"
-#include "app/requested_experiments.hpp"
 #include "app/run_options.hpp"
-#include "app/timing_process.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"

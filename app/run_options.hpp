@@ -1,16 +1,17 @@
-// The settings of a run as options of a subcommand, by their table (experiments/settings/setting.hpp).
+// Options that subcommands share: settings of a run by their table (experiments/settings/setting.hpp), and MAP.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "experiments/settings/setting.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
+#include "renderer/scene/settings/part.hpp"
 
 namespace footprint {
 
@@ -41,5 +42,46 @@ class RunOptions {
 
 /// Adds --quiet.
 void add_quiet_flag(CLI::App& command, bool& quiet);
+
+/// A check of a number from `low` to `high`, both inclusive. Unlike CLI::Range it refuses NaN, and prints short limits.
+[[nodiscard]] inline CLI::Validator within(double low, double high) {
+  const std::string range = fmt::format("{:g} to {:g}", low, high);
+  return {[low, high, range](std::string& text) {
+            double value = 0.0;
+            if (!CLI::detail::lexical_cast(text, value) || std::isnan(value))
+              return "Value " + text + " is not a number";
+            return value >= low && value <= high ? std::string() : "Value " + text + " not in range " + range;
+          },
+          fmt::format("FLOAT in [{:g} - {:g}]", low, high)};
+}
+
+/// The options of a subcommand that say how its MAP is read. Must outlive the parsing and running of the subcommand.
+class MapOptions {
+ public:
+  void add_to(CLI::App& command) {
+    auto* scale =
+        command.add_option("--height-scale", scale_, "MAP stores heights; the height of value 1 in widths of the map")
+            ->type_name("X")
+            ->check(within(-100.0, 100.0));
+    command.add_option("--slope-filter", filter_, "Derivative of the heights: central, sobel or scharr")
+        ->type_name("WORD")
+        ->needs(scale)
+        ->capture_default_str();
+  }
+
+  /// The file with these options. Throws Error (usage): an unknown filter.
+  [[nodiscard]] NormalFile of(const std::string& path) const {
+    NormalFile file{.path = path};
+    const SlopeFilter filter = word_value(slope_filters, filter_, "slope filter", "--slope-filter");
+    if (!scale_) return file;
+    file.scale = *scale_;
+    file.heights = HeightSettings{.filter = filter};
+    return file;
+  }
+
+ private:
+  std::optional<double> scale_;
+  std::string filter_ = "central";
+};
 
 }  // namespace footprint

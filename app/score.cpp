@@ -17,13 +17,10 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
-#include "app/number_check.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/score.hpp"
-#include "experiments/studies/score_limits.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
@@ -33,7 +30,6 @@
 #include "renderer/image/pixel_script.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/check_outcomes.hpp"
-#include "results/report/markup.hpp"
 #include "results/report/page.hpp"
 #include "results/report/report.hpp"
 

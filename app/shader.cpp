@@ -8,7 +8,6 @@
 
 #include "app/commands.hpp"
 #include "app/messages.hpp"
-#include "app/progress_display.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/baked_files/baked_files.hpp"

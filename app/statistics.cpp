@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/map_options.hpp"
 #include "app/messages.hpp"
-#include "app/number_check.hpp"
-#include "renderer/bake/lobe_errors.hpp"
+#include "app/run_options.hpp"
 #include "renderer/bake/map_statistics.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"

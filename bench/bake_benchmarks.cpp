@@ -9,7 +9,7 @@
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/tan_gmm/mixture_chain.hpp"
 #include "renderer/core/progress.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint::bench {

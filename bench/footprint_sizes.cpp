@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bench/bench_scene.hpp"
-#include "bench/ratios.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/scene/camera.hpp"

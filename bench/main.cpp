@@ -10,7 +10,6 @@
 #include <string>
 
 #include "bench/benchmarks.hpp"
-#include "bench/ratios.hpp"
 #include "renderer/core/error.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Draws the pairs in turn and prints the quantiles of their ratios, by wall clock and by CPU time. CPU time is counted
 // around each drawing and its glFinish, wall time by interleaved_times, whose warm-up is dropped.
-#include "bench/ratios.hpp"
+#include "bench/benchmarks.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 # of its *_test.cpp. Without NAME.cpp the method is that of the head of NAME.glsl (docs/guides/method-files.md). Its library links footprint_bake; a method with GL code of its own names footprint_pipeline. TEXTS
 # names texts of other methods' folders that the module includes too, from the current folder on. STUDY names sources in
 # its folder study/, a library of their own that no picture needs; they define `std::span<const Quantity>
-# NAME_quantities()` (methods/quantities.hpp). BAKE_TESTS names tests of the precompute and of the study alone,
+# NAME_quantities()` (methods/registry.hpp). BAKE_TESTS names tests of the precompute and of the study alone,
 # extra_test.cpp: a program that links no GL. Nothing else has to change: the registry is written from these lines.
 function(footprint_add_method name)
   cmake_parse_arguments(ARG "" "" "SOURCES;TEXTS;STUDY;LIBRARIES;BAKE_TESTS" ${ARGN})

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/runner/measure.hpp"
+#include "experiments/runner/expression.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {

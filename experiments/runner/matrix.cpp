@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
-#include "experiments/settings/history_options.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"

@@ -11,7 +11,6 @@
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/judge.hpp"
-#include "experiments/settings/history_options.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"

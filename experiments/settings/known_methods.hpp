@@ -1,12 +1,15 @@
-// Reads methods, checks them against those of the program, and finds their figures that no picture shows.
+// Methods of a run: read, checked against those of the program, their figures that no image shows, and their histories.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "methods/quantities.hpp"
+#include "experiments/settings/setting.hpp"
+#include "methods/registry.hpp"
 #include "renderer/core/options.hpp"
 
 namespace footprint {
@@ -31,5 +34,26 @@ void take_known(std::span<MethodSpec> methods, const std::filesystem::path& fold
 
 /// The names of all figures of some methods, each once.
 [[nodiscard]] std::vector<std::string> quantity_names(std::span<const MethodSpec> methods);
+
+/// A setting of histories.
+struct HistoryOption {
+  std::string_view name;  ///< of the option of a method, and of the key of a file
+  SettingType type;
+  std::string_view help;
+};
+
+[[nodiscard]] const std::array<HistoryOption, 4>& history_options();
+
+/// Methods, each of which may have options of its own history. Errors (usage): those of parse_known_methods, or a value
+/// that its option does not take.
+[[nodiscard]] std::vector<MethodSpec> parse_methods_with_histories(const std::string& text,
+                                                                   const std::filesystem::path& folder = {});
+
+/// The history of a method's frames.
+/// common: that of the run's methods; options of the method's own replace it.
+[[nodiscard]] HistorySettings history_of(const MethodSpec& method, const HistorySettings& common);
+
+/// The number of a run's methods whose images are histories.
+[[nodiscard]] std::size_t count_histories(const RunSettings& run);
 
 }  // namespace footprint

@@ -7,7 +7,7 @@
 
 #include "renderer/core/memory.hpp"
 #include "renderer/core/numbers.hpp"
-#include "renderer/gpu_cost/chips.hpp"
+#include "renderer/gpu_cost/estimate.hpp"
 
 namespace footprint::setting_types {
 namespace {

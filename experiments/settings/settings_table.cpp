@@ -1,7 +1,7 @@
 // The table of a run's settings: a new one is a field of RunSettings and a row here (adding-an-option.md).
 #include <limits>
 
-#include "experiments/settings/history_options.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/settings/setting_types.hpp"
 

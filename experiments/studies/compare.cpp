@@ -9,12 +9,12 @@
 #include <memory>
 #include <utility>
 
-#include "experiments/settings/history_options.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/distance_result.hpp"
-#include "experiments/studies/method_frames.hpp"
+#include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
-#include "experiments/studies/reference_noise.hpp"
+#include "experiments/studies/reference_view.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "experiments/studies/views.hpp"
 #include "renderer/image/image_io.hpp"

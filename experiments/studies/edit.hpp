@@ -3,13 +3,17 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/microgeometry/patch.hpp"
+#include "renderer/scene/scene.hpp"
 #include "results/report/edit_report.hpp"
 
 namespace footprint {
@@ -49,5 +53,26 @@ struct EditSettings {
 /// machine, an interrupt through `progress`.
 [[nodiscard]] EditRun run_edit(const EditSettings& settings, const std::filesystem::path& folder,
                                const Progress& progress);
+
+/// The kind of a sweep over the base BRDF.
+inline constexpr const char* brdf_kind = "brdf";
+
+/// The parameter whose values are MERL files; between them it is the share of the second, 0 to 1.
+inline constexpr const char* measured_parameter = "measured";
+
+/// roughness, exponent, alpha, kappa, specular, metallic, and the share of the second measured table.
+[[nodiscard]] const std::vector<OptionSpec>& brdf_parameters();
+
+/// The two tables between which an edit goes.
+struct MeasuredPair {
+  TabulatedBrdf from, to;
+};
+
+/// Sets parameters of the base BRDF of all materials.
+/// values: by name, as brdf_parameters() takes them.
+/// tables: needed for `measured` alone; else null.
+/// Errors (usage): a parameter that a material does not have: another distribution, a value from a map, lobes of its
+/// own, or `measured` without small-scale geometry.
+void set_brdf(const std::map<std::string, std::string>& values, const MeasuredPair* tables, Scene& scene);
 
 }  // namespace footprint

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/studies/brdf_edit.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "tests/support/gltf_builder.hpp"

@@ -11,7 +11,6 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/core/hash.hpp"
 
 namespace footprint {
 namespace {

@@ -1,10 +1,13 @@
-// Frame times of a comparison: measured in turn, pooled over processes, and written into its records.
+// The frames of a run's methods: their images, single or as histories, and their times.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "experiments/studies/stage.hpp"
+#include "renderer/pipeline/history.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
@@ -32,5 +35,32 @@ void set_times(std::span<Record> records, const Stage& stage, std::span<const Di
 
 /// Marks the times of a record as not measured.
 void set_no_times(Record& record);
+
+/// Draws a stage's methods, each as the settings of its history say.
+class MethodFrames {
+ public:
+  MethodFrames(Stage& stage, const RunSettings& settings);
+
+  /// The image of a method in view `index` of a run, which the stage is at. On a path its history has all frames before
+  /// it, which are drawn again unless the last call for this method was the view before.
+  [[nodiscard]] Image render(std::size_t method, const std::vector<RunView>& views, std::size_t index,
+                             const View& view);
+
+ private:
+  // The history of a method, and the number of views on the path that it contains.
+  struct Sequence {
+    std::optional<History> history;
+    std::size_t views = 0;
+  };
+
+  void add_view(Sequence& sequence, const StagedMethod& method, View view);
+
+  Stage& stage_;
+  bool is_path_;
+  std::vector<Sequence> sequences_;  // of each method
+};
+
+/// A frame of a method in a view, or what a history of that view alone shows.
+[[nodiscard]] Image image_of(const StagedMethod& method, const View& view);
 
 }  // namespace footprint

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/picture_files.hpp"
-#include "experiments/studies/reference_noise.hpp"
+#include "experiments/studies/reference_view.hpp"
 #include "experiments/studies/score.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"

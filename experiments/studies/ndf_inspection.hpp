@@ -9,7 +9,7 @@
 #include "renderer/core/progress.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/scene/material.hpp"
-#include "renderer/scene/normal_file.hpp"
+#include "renderer/scene/settings/part.hpp"
 #include "renderer/scene/surface.hpp"
 #include "results/report/ndf_report.hpp"
 

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "methods/registry.hpp"
-#include "renderer/bake/lobe_errors.hpp"
+#include "renderer/bake/map_statistics.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"

@@ -11,7 +11,7 @@
 
 #include "experiments/studies/stage.hpp"
 #include "experiments/studies/views.hpp"
-#include "renderer/core/hash.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/scene/scene.hpp"
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/studies/score_limits.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {

@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-#include "experiments/settings/history_options.hpp"
+#include "experiments/settings/known_methods.hpp"
 #include "experiments/studies/run_info.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "methods/atanasov_bins/bin_textures.hpp"
-#include "methods/atanasov_bins/bins.hpp"
 #include "methods/atanasov_bins/inverse_map.hpp"
 #include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"

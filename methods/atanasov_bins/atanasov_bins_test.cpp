@@ -77,7 +77,7 @@ TEST(AtanasovBins, AFootprintElsewhereIsSeen) {
   EXPECT_GT(std::abs(found[0].x - found[1].x) * bin_solid_angle(m), 1e-3);
 }
 
-// The shader's bins and packed normals are those of bins.cpp.
+// The shader's bins and packed normals are those of bin_textures.cpp.
 TEST(AtanasovBins, PackedNormalsAndBinsAreTheTwins) {
   constexpr int m = 127;
   const Material material = material_of(test_normals(8, 8, 0.5F, m), Wrap::repeat);

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "renderer/microgeometry/direction_grid.hpp"
 
 namespace footprint::atanasov_bins {
 namespace {
@@ -40,7 +44,43 @@ int rows_for(std::size_t count, int columns) {
   return static_cast<int>((std::max<std::size_t>(count, 1) + row - 1) / row);
 }
 
+constexpr std::uint32_t places = 65536;  // along an axis
+
+// Places [first, last] are those p for which floor(p m / places) is the bin. x = 1, or beyond 1 by rounding, is in the
+// last bin.
+std::uint32_t place_along(double x, int m) {
+  const auto bin = static_cast<std::uint32_t>(std::clamp(static_cast<int>(std::floor(x * m)), 0, m - 1));
+  const auto count = static_cast<std::uint32_t>(m);
+  const std::uint32_t first = (bin * places + count - 1) / count;
+  const std::uint32_t last = ((bin + 1) * places + count - 1) / count - 1;
+  const auto place = static_cast<std::uint32_t>(std::clamp(std::floor(x * places), 0.0, places - 1.0));
+  return std::clamp(place, first, std::min(last, places - 2));  // places - 1 is for no_normal
+}
+
 }  // namespace
+
+double bin_solid_angle(int m) { return 2.0 * std::numbers::pi / (static_cast<double>(m) * m); }
+
+std::uint32_t packed_normal(const glm::dvec3& normal, int m) {
+  const glm::dvec2 point = hemisphere_to_square(normal);
+  return place_along(point.y, m) << 16U | place_along(point.x, m);
+}
+
+std::uint32_t bin_of_packed(std::uint32_t packed, int m) {
+  const auto count = static_cast<std::uint32_t>(m);
+  return ((packed >> 16U) * count >> 16U) * count + ((packed & 0xFFFFU) * count >> 16U);
+}
+
+glm::dvec2 place_in_square(std::uint32_t packed) {
+  return (glm::dvec2(packed & 0xFFFFU, packed >> 16U) + 0.5) / double{places};
+}
+
+int bins_across_for(double variance, double share, int most) {
+  const double width = share * std::sqrt(std::max(variance, 1e-12));
+  const double across = std::sqrt(2.0 * std::numbers::pi) / width;
+  const int odd = across >= most ? most : 2 * static_cast<int>(std::ceil(0.5 * (across - 1.0))) + 1;
+  return std::clamp(odd, std::min(5, most), most);
+}
 
 PrefilteredTexture word_texture(std::string name, std::span<const std::uint32_t> words) {
   const int columns = columns_for(words.size());

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <span>
 
-#include "methods/atanasov_bins/bins.hpp"
+#include "methods/atanasov_bins/bin_textures.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "methods/best_lobes/other_methods.hpp"
-#include "methods/best_lobes/roughness_groups.hpp"
+#include "methods/best_lobes/starts.hpp"
 #include "methods/best_lobes/texel_fit.hpp"
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/material_maps.hpp"

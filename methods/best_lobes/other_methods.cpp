@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "methods/best_lobes/starts.hpp"
-#include "methods/cells/halves.hpp"
+#include "methods/cells/partition.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"

@@ -1,4 +1,4 @@
-// Where fits of lobes start: clusters of the normals, and what EM makes of them.
+// Starts of lobe fits: clusters of the normals of one roughness, and what EM makes of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,7 @@
 
 #include "methods/best_lobes/lobe_shapes.hpp"
 #include "methods/fournier/peaks.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint::best_lobes {
 
@@ -33,5 +34,15 @@ struct PlaneNormal {
 /// EM of the normals, each blurred by the base lobe: the components' own spread is what is left of theirs.
 [[nodiscard]] std::vector<FittedLobe> by_em(const std::vector<PlaneNormal>& normals, std::vector<FittedLobe> lobes,
                                             const LobeFamily& family);
+
+struct RoughnessGroups {
+  double narrowest = 0.0;                ///< the least slope variance of a base lobe
+  std::vector<std::uint32_t> of_texels;  ///< row by row
+  std::vector<double> spreads;           ///< of each group: its variance above the narrowest
+};
+
+/// The groups of a normal map of width x height texels, where roughness_lies_on_normals(material). The variances of a
+/// group differ by a thousandth at most, and its own is their mean.
+[[nodiscard]] RoughnessGroups roughness_groups(const Material& material, int width, int height);
 
 }  // namespace footprint::best_lobes

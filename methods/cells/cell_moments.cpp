@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "methods/cells/plane.hpp"
-
 namespace footprint::cells {
 namespace {
 

@@ -4,12 +4,11 @@
 #include <utility>
 
 #include "methods/cells/cell_moments.hpp"
-#include "methods/cells/halves.hpp"
+#include "methods/cells/partition.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
-#include "renderer/bake/specular_weights.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {

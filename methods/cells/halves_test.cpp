@@ -1,5 +1,5 @@
 // Texels are divided by roughness first, then by their normals.
-#include "methods/cells/halves.hpp"
+#include "methods/cells/partition.hpp"
 
 #include <gtest/gtest.h>
 

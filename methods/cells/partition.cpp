@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
-#include "methods/cells/plane.hpp"
+#include "renderer/bake/normal_chain.hpp"
+#include "renderer/bake/slope_moments.hpp"
 
 namespace footprint::cells {
 namespace {
@@ -235,7 +237,82 @@ class JointLabels {
 // The index of the smallest block size of a round: smaller sizes are added one by one during the first half.
 int finest_of(int round, int rounds) { return std::max(0, block_sizes - 1 - 2 * block_sizes * round / rounds); }
 
+constexpr int most_rounds = 50;
+
+// The points with weight 0 outside a group.
+std::vector<PlanePoint> only(std::span<const PlanePoint> points, const std::vector<bool>& upper, bool group) {
+  std::vector<PlanePoint> own(points.begin(), points.end());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (upper[i] != group) own[i].weight = 0.0;
+  }
+  return own;
+}
+
+double mean_over(std::span<const double> values, const std::vector<bool>& upper, bool group) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (upper[i] != group) continue;
+    sum += values[i];
+    count += 1.0;
+  }
+  return sum / std::max(count, 1.0);
+}
+
+constexpr double least_share = 1e-6;  // a part that is empty here may gain texels later
+
 }  // namespace
+
+std::vector<PlanePoint> plane_points(const Image& normals, Coordinates coordinates, double steepest) {
+  std::vector<PlanePoint> points(normals.texel_count());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float* const n = &normals.texels[4 * i];
+    const glm::dvec3 normal(n[0], n[1], n[2]);
+    if (n[3] <= 0.0F || glm::length(normal) < 1e-3) continue;
+    const glm::dvec3 unit = glm::normalize(normal);
+    points[i] = {.at = coordinates == Coordinates::slopes ? slope_of(unit, steepest) : stereographic_of(unit),
+                 .weight = n[3]};
+  }
+  return points;
+}
+
+void PlaneSums::add(const glm::dvec2& p, double w) {
+  weight += w;
+  first += w * p;
+  second += w * glm::dvec3(p.x * p.x, p.x * p.y, p.y * p.y);
+}
+
+void PlaneSums::add(const PlaneSums& others) {
+  weight += others.weight;
+  first += others.first;
+  second += others.second;
+}
+
+void Quadratic::add(const Quadratic& other, double factor) {
+  c += factor * other.c;
+  b += factor * other.b;
+  a += factor * other.a;
+}
+
+double Quadratic::at(const glm::dvec2& p) const {
+  return c + glm::dot(b, p) - 0.5 * (a.x * p.x * p.x + a.z * p.y * p.y) - a.y * p.x * p.y;
+}
+
+Quadratic log_density(const PlaneSums& sums, double share, double variance) {
+  const double weight = std::max(sums.weight, 1e-12);
+  const glm::dvec2 mean = sums.first / weight;
+  const double scale = 0.5 * (1.0 + glm::dot(mean, mean));
+  const double floor = std::max(lobe_floor * variance * scale * scale, 1e-9);
+  const double xx = std::max(sums.second.x / weight - mean.x * mean.x, 0.0) + floor;
+  const double yy = std::max(sums.second.z / weight - mean.y * mean.y, 0.0) + floor;
+  const double most = std::sqrt((xx - floor) * (yy - floor));
+  const double xy = std::clamp(sums.second.y / weight - mean.x * mean.y, -most, most);
+  const double determinant = xx * yy - xy * xy;
+  const glm::dvec3 inverse = glm::dvec3(yy, -xy, xx) / determinant;
+  const glm::dvec2 b(inverse.x * mean.x + inverse.y * mean.y, inverse.y * mean.x + inverse.z * mean.y);
+  return {.c = std::log(std::max(share, least_share)) - 0.5 * std::log(determinant) - 0.5 * glm::dot(b, mean),
+          .b = b,
+          .a = inverse};
+}
 
 std::vector<float> partition(std::span<const PlanePoint> points, int width, int height,
                              const PartitionSettings& settings, const Progress& progress) {
@@ -265,6 +342,56 @@ std::vector<float> partition(std::span<const PlanePoint> points, int width, int 
     progress(fmt::format("parting normals, {} x {}", width, height), (round + 1.0) / settings.rounds);
   }
   return labels;
+}
+
+std::vector<double> texel_variances(const Material& material, int width, int height) {
+  const Image map = lobe_variance_map(material);
+  std::vector<double> variances;
+  variances.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) variances.push_back(map.at(x * map.width / width, y * map.height / height)[0]);
+  }
+  return variances;
+}
+
+std::vector<bool> upper_group(std::span<const double> values) {
+  std::vector<bool> upper(values.size(), false);
+  if (values.empty()) return upper;
+  const auto [least, most] = std::ranges::minmax(values);
+  double boundary = 0.5 * (least + most);
+  for (int round = 0; round < most_rounds; ++round) {
+    for (std::size_t i = 0; i < values.size(); ++i) upper[i] = values[i] > boundary;
+    const double moved = 0.5 * (mean_over(values, upper, false) + mean_over(values, upper, true));
+    if (std::ranges::find(upper, true) == upper.end() || moved == boundary) break;
+    boundary = moved;
+  }
+  return upper;
+}
+
+std::vector<float> partition_with_roughness(std::span<const PlanePoint> points, std::span<const double> variances,
+                                            int width, int height, const PartitionSettings& settings,
+                                            const Progress& progress) {
+  std::vector<double> logarithms(variances.size());
+  std::ranges::transform(variances, logarithms.begin(), [](double v) { return std::log(v); });
+  const std::vector<bool> upper = upper_group(logarithms);
+  if (settings.parts == 1 || std::ranges::find(upper, true) == upper.end())
+    return partition(points, width, height, settings, progress);
+  const auto parts = static_cast<std::size_t>(settings.parts);
+  std::vector<float> shares(points.size() * parts, 0.0F);
+  std::size_t first = 0;
+  ProgressParts steps(progress, 2);
+  for (const bool group : {false, true}) {
+    PartitionSettings own = settings;
+    own.parts = group ? settings.parts / 2 : (settings.parts + 1) / 2;
+    own.variance = mean_over(variances, upper, group);
+    const auto count = static_cast<std::size_t>(own.parts);
+    const std::vector<float> labels = partition(only(points, upper, group), width, height, own, steps.next(1, ""));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (upper[i] == group) std::copy_n(&labels[i * count], count, &shares[i * parts + first]);
+    }
+    first += count;
+  }
+  return shares;
 }
 
 }  // namespace footprint::cells

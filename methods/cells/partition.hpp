@@ -1,13 +1,65 @@
-// Partitions the normals of a material: the share of each texel in each part, the same for all levels.
+// Normals as weighted points of a plane, their anisotropic Gaussians, and their partition: the share of each texel in
+// each part, the same for all levels.
 #pragma once
 
+#include <cmath>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
-#include "methods/cells/plane.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/image/image.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint::cells {
+
+/// The plane of the moments.
+enum class Coordinates { stereographic, slopes };
+
+/// n_xy / (1 + n_z) of a unit normal: the stereographic projection from the pole below. It is conformal, and the
+/// horizon has length 1. Normals below the horizon are moved onto it.
+[[nodiscard]] inline glm::dvec2 stereographic_of(const glm::dvec3& normal) {
+  const glm::dvec2 p = glm::dvec2(normal) / (1.0 + std::max(normal.z, 0.0));
+  return normal.z < 0.0 ? p / std::max(glm::length(p), 1e-12) : p;
+}
+
+/// A normal of the map as a point; invalid normals have weight 0.
+struct PlanePoint {
+  glm::dvec2 at{0.0};
+  double weight = 0.0;
+};
+
+/// The points of a normal map (RGBA: normal, weight), row by row. Slopes are limited to `steepest`.
+[[nodiscard]] std::vector<PlanePoint> plane_points(const Image& normals, Coordinates coordinates, double steepest);
+
+/// Weighted sums over points, which add up from texels to blocks to larger blocks.
+struct PlaneSums {
+  double weight = 0.0;
+  glm::dvec2 first{0.0};
+  glm::dvec3 second{0.0};  ///< xx, xy, yy
+
+  void add(const glm::dvec2& p, double w);
+  void add(const PlaneSums& others);
+};
+
+/// c + b.p - p^T A p / 2: a log density, or a sum of several.
+struct Quadratic {
+  double c = 0.0;
+  glm::dvec2 b{0.0};
+  glm::dvec3 a{0.0};  ///< xx, xy, yy
+
+  void add(const Quadratic& other, double factor);
+  [[nodiscard]] double at(const glm::dvec2& p) const;
+};
+
+/// log(share g). g is the Gaussian with the mean and the covariance of the sums, widened by `lobe_floor` of the base
+/// lobe. `variance` is the slope variance of the base lobe, which over the plane is variance ((1 + |mean|^2) / 2)^2 per
+/// axis.
+[[nodiscard]] Quadratic log_density(const PlaneSums& sums, double share, double variance);
+
+/// The share of the base lobe's variance that widens a part. It is well below one, so that parts are separated even if
+/// the lobe blurs them into one peak.
+inline constexpr double lobe_floor = 0.1;
 
 constexpr int most_parts = 8;
 
@@ -27,5 +79,21 @@ struct PartitionSettings {
 /// threads. Errors: std::logic_error if the sizes do not match.
 [[nodiscard]] std::vector<float> partition(std::span<const PlanePoint> points, int width, int height,
                                            const PartitionSettings& settings, const Progress& progress);
+
+/// The slope variance of the base lobe of each texel of a normal map of width x height texels, row by row, where
+/// roughness_lies_on_normals(material).
+[[nodiscard]] std::vector<double> texel_variances(const Material& material, int width, int height);
+
+/// Whether each value belongs to the upper of two groups, by 2-means that starts from the extremes (Lloyd 1982).
+/// Equal values are all in the lower group. Values are finite.
+[[nodiscard]] std::vector<bool> upper_group(std::span<const double> values);
+
+/// As partition(), with half of the parts, rounded up, for the texels of the narrower lobes and the rest for the
+/// others: one lobe cannot stand for a sharp and a blunt one. The groups are those of the logarithms of the variances.
+/// variances: the slope variance of each texel's lobe, above 0. Where all are in one group, or settings.parts is 1, the
+/// result is that of partition(). settings.variance is that of each group's mean. Errors: those of partition().
+[[nodiscard]] std::vector<float> partition_with_roughness(std::span<const PlanePoint> points,
+                                                          std::span<const double> variances, int width, int height,
+                                                          const PartitionSettings& settings, const Progress& progress);
 
 }  // namespace footprint::cells

@@ -10,9 +10,9 @@
 #include <random>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

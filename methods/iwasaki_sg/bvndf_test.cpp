@@ -11,7 +11,7 @@
 #include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 #include "tests/support/ray_traced_tiling.hpp"
 
 namespace footprint::iwasaki_sg {

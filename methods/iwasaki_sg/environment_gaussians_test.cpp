@@ -1,5 +1,5 @@
 // The light of an environment as spherical Gaussians: its sum, its colours, and lights that are Gaussians already.
-#include "methods/iwasaki_sg/environment_gaussians.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 
 #include <gtest/gtest.h>
 

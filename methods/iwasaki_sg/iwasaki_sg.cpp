@@ -2,9 +2,8 @@
 // them with the base BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
 #include <string>
 
-#include "methods/iwasaki_sg/environment_gaussians.hpp"
+#include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/bake/method.hpp"
 
 namespace footprint {

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/iwasaki_sg/table_textures.hpp"
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"

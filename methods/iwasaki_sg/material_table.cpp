@@ -1,10 +1,18 @@
 // Runs the stages one after the other: samples, visibility, BVNDF, NDF, amplitudes.
 #include "methods/iwasaki_sg/material_table.hpp"
 
-#include <algorithm>
-#include <utility>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "methods/iwasaki_sg/spherical_gaussian.hpp"
 #include "renderer/bake/facets.hpp"
+#include "renderer/bake/material_maps.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 
@@ -31,6 +39,136 @@ std::vector<double> shares_from_above(const Amplitudes& table, int side) {
   }
   for (double& share : shares) share = total > 0.0 ? share / total : 1.0 / static_cast<double>(shares.size());
   return shares;
+}
+
+// Row 0: axis and sharpness of each lobe. Row 1: its share of the normals.
+PrefilteredTexture lobe_texture(std::span<const SphericalGaussian> lobes, std::span<const double> shares) {
+  Image image(static_cast<int>(lobes.size()), 2, 4);
+  for (std::size_t j = 0; j < lobes.size(); ++j) {
+    const glm::vec4 lobe(glm::vec3(lobes[j].axis), static_cast<float>(lobes[j].sharpness));
+    std::copy_n(&lobe.x, 4, image.at(static_cast<int>(j), 0).begin());
+    image.at(static_cast<int>(j), 1)[0] = static_cast<float>(shares[j]);
+  }
+  return make_texture("iwasaki_lobes", {image}, Storage::fp32, {});
+}
+
+// Whether a table includes the facets' cosine to the light.
+enum class Irradiance { without, with };
+
+// Arranges [channel][wi][wo] as tiles: one for each cell of wo, with one texel for each cell of wi. Values with a
+// cosine to the light are divided by that of the whole surface. The ratio is smooth down to the horizon, and 1 for a
+// plane.
+Image tiled(std::span<const float> values, std::size_t channels, int side, Irradiance irradiance) {
+  const std::vector<glm::dvec3> directions = direction_grid(side);
+  Image image(side * side, side * side, static_cast<int>(channels));
+  const auto n = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const auto row = static_cast<std::size_t>(side);
+  for (std::size_t wi = 0; wi < n; ++wi) {
+    for (std::size_t wo = 0; wo < n; ++wo) {
+      const auto x = static_cast<int>(wo % row * row + wi % row);
+      const auto y = static_cast<int>(wo / row * row + wi / row);
+      const float scale = irradiance == Irradiance::with ? static_cast<float>(1.0 / directions[wi].z) : 1.0F;
+      for (std::size_t c = 0; c < channels; ++c) image.at(x, y)[c] = values[(c * n + wi) * n + wo] * scale;
+    }
+  }
+  return image;
+}
+
+// Packs one-channel images into images of four channels, which a shader fetches together. Unused channels are 0.
+std::vector<Image> packed(const std::vector<Image>& values) {
+  std::vector<Image> out;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (k % 4 == 0) out.emplace_back(values[k].width, values[k].height, 4);
+    for (std::size_t i = 0; i < values[k].texels.size(); ++i) out.back().texels[4 * i + k % 4] = values[k].texels[i];
+  }
+  return out;
+}
+
+// The values of the lobes, followed by the diffuse term: one layer each in colour, otherwise four per layer.
+PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSettings& settings, Storage storage) {
+  const Irradiance irradiance = settings.cosines == Cosines::published ? Irradiance::with : Irradiance::without;
+  const std::size_t size = table.channels * table.directions * table.directions;
+  std::vector<Image> values;
+  values.reserve(table.lobes.size() + 1);
+  for (std::size_t j = 0; j < table.lobes.size(); ++j) {
+    values.push_back(tiled(std::span(table.masses).subspan(j * size, size), table.channels, settings.side, irradiance));
+  }
+  values.push_back(tiled(table.diffuse, table.channels, settings.side, Irradiance::with));
+  if (table.channels == 1) values = packed(values);
+  std::vector<std::vector<Image>> layers;
+  layers.reserve(values.size());
+  for (Image& value : values) layers.push_back({std::move(value)});
+  return make_array_texture("iwasaki_amplitudes", std::move(layers), storage, {}, TextureFilter::linear);
+}
+
+// For each direction to the viewer: the share of a constant environment that the diffuse term reflects, in colour, and
+// a normal with about its irradiance. The mean direction of a surface, a cosine over the hemisphere, has the length
+// 2/3.
+PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
+  const std::vector<glm::dvec3> directions = direction_grid(side);
+  const std::size_t n = table.directions;
+  Image share(side, side, 4), normal(side, side, 4);
+  for (std::size_t wo = 0; wo < n; ++wo) {
+    glm::dvec3 sum(0.0), mean(0.0);
+    double irradiance = 0.0;
+    for (std::size_t wi = 0; wi < n; ++wi) {
+      glm::dvec3 reflected(0.0);
+      for (std::size_t c = 0; c < 3; ++c) {
+        reflected[static_cast<int>(c)] = table.diffuse[((table.channels == 1 ? 0 : c) * n + wi) * n + wo];
+      }
+      sum += reflected;
+      irradiance += directions[wi].z;
+      mean += (reflected.x + reflected.y + reflected.z) * directions[wi];
+    }
+    const double total = sum.x + sum.y + sum.z;
+    const glm::vec4 texel(glm::vec3(sum / irradiance), 0.0F);
+    const glm::vec4 leaning(total > 0.0 ? glm::vec3(1.5 / total * mean) : glm::vec3(0.0F, 0.0F, 1.0F), 0.0F);
+    std::copy_n(&texel.x, 4, share.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
+    std::copy_n(&leaning.x, 4, normal.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
+  }
+  return make_array_texture("iwasaki_diffuse", {{std::move(share)}, {std::move(normal)}}, Storage::fp32, {},
+                            TextureFilter::linear);
+}
+
+PrefilteredTexture brdf_texture(const Material& material) {
+  const std::vector<BrdfLobe> lobes = lobes_of(lobe_of(material));
+  Image image(static_cast<int>(lobes.size()), 1, 2);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    image.texels[2 * i] = static_cast<float>(lobes[i].sharpness);
+    image.texels[2 * i + 1] = static_cast<float>(lobes[i].amplitude);
+  }
+  return make_texture("iwasaki_brdf", {image}, Storage::fp32, {});
+}
+
+// The diffuse term as a lobe of sharpness 0, followed by sharpness and colour of each lobe of a tabulated BRDF; and its
+// rise.
+std::array<PrefilteredTexture, 2> table_textures(const Material& material) {
+  TabulatedLobes fitted{.diffuse = glm::vec3(0.0F), .lobes = {}, .rise = {glm::vec3(1.0F)}};
+  if (is_tabulated(material)) fitted = lobes_of(*material.microgeometry->brdf);
+  fitted.lobes.insert(fitted.lobes.begin(), {0.0, fitted.diffuse});
+  Image lobes(static_cast<int>(fitted.lobes.size()), 1, 4), rise(static_cast<int>(fitted.rise.size()), 1, 4);
+  for (std::size_t i = 0; i < fitted.lobes.size(); ++i) {
+    const glm::vec4 texel(static_cast<float>(fitted.lobes[i].sharpness), fitted.lobes[i].amplitude);
+    std::copy_n(&texel.x, 4, lobes.at(static_cast<int>(i), 0).begin());
+  }
+  for (std::size_t i = 0; i < fitted.rise.size(); ++i) {
+    std::copy_n(&fitted.rise[i].x, 3, rise.at(static_cast<int>(i), 0).begin());
+  }
+  return {make_texture("iwasaki_table", {lobes}, Storage::fp32, {}),
+          make_texture("iwasaki_rise", {rise}, Storage::fp32, {})};
+}
+
+std::vector<std::string> notes_of(const Material& material, const MaterialTable& table) {
+  const std::size_t lobes = table.amplitudes.lobes.size();
+  if (!material.microgeometry) {
+    return {
+        fmt::format("the normal map as a whole replaces the small-scale geometry, all of it seen: {} lobe{} "
+                    "for {} discretised normals; its structure does not show at any distance",
+                    lobes, lobes == 1 ? "" : "s", table.normals)};
+  }
+  return {fmt::format("patch {}: {} lobe{} for {} discretised normals; {:.1f}% of its area is ever seen",
+                      material.microgeometry->patch.name, lobes, lobes == 1 ? "" : "s", table.normals,
+                      100.0 * table.visible_share)};
 }
 
 }  // namespace
@@ -138,6 +276,52 @@ MaterialTable flat_table(std::span<const WeightedNormal> normals, const TableSet
     std::fill_n(out.diffuse.begin() + static_cast<std::ptrdiff_t>(i * n), n, static_cast<float>(sum));
   }
   return table;
+}
+
+namespace {
+
+bool depends_on_brdf(const PrefilteredTexture& texture) {
+  return texture.name == "iwasaki_brdf" || texture.name == "iwasaki_table" || texture.name == "iwasaki_rise";
+}
+
+void add_brdf_textures(const Material& material, const Options& options, const EffectSet& effects, Prefiltered& out) {
+  if (options.word("lobe") == "sg") out.textures.push_back(brdf_texture(material));
+  if (!has(effects, Effect::tabulated_brdf)) return;
+  append(out.textures, table_textures(material));
+  out.scalars["iwasaki_tabulated"] = is_tabulated(material) ? 1.0F : 0.0F;
+}
+
+}  // namespace
+
+Prefiltered baked_material(const Material& material, const Options& options, const EffectSet& effects,
+                           const Progress& progress) {
+  const bool seen = has(effects, Effect::microgeometry_visibility);
+  Prefiltered out;
+  if (seen || has(effects, Effect::normal_variation)) {
+    const TableSettings settings = table_settings(material, options, effects);
+    const bool patch = seen && material.microgeometry != nullptr;
+    const MaterialTable table = patch ? patch_table(material.microgeometry->patch, settings, progress)
+                                      : flat_table(bin_normal_map(normal_map_of(material)), settings);
+    out.textures.push_back(lobe_texture(table.amplitudes.lobes, table.shares));
+    if (seen) {
+      out.textures.push_back(amplitude_texture(table.amplitudes, settings, parse_storage(options.word("storage"))));
+      if (has(effects, Effect::environment_light) &&
+          (has(effects, Effect::diffuse) || has(effects, Effect::tabulated_brdf))) {
+        out.textures.push_back(diffuse_texture(table.amplitudes, settings.side));
+      }
+    }
+    out.notes = notes_of(material, table);
+  }
+  add_brdf_textures(material, options, effects, out);
+  return out;
+}
+
+Prefiltered with_other_brdf(const Prefiltered& before, const Material& material, const Options& options,
+                            const EffectSet& effects) {
+  Prefiltered out = before;
+  std::erase_if(out.textures, depends_on_brdf);
+  add_brdf_textures(material, options, effects, out);
+  return out;
 }
 
 }  // namespace footprint::iwasaki_sg

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "methods/iwasaki_sg/spherical_gaussian.hpp"
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 namespace footprint::iwasaki_sg {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/lobes/lobe.hpp"
-#include "renderer/microgeometry/tabulated_brdf.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
 
 namespace footprint::iwasaki_sg {
 

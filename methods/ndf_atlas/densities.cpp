@@ -1,6 +1,6 @@
 // Adds the lobe of every facet to the nodes within its reach, in parallel over texels and in a fixed order within a
 // texel.
-#include "methods/ndf_atlas/densities.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

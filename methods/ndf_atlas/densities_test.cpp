@@ -1,5 +1,5 @@
 // Tables against plain sums over texels, at every level and size; what the second differences buy.
-#include "methods/ndf_atlas/densities.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "methods/ndf_atlas/densities.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/ndf/method_ndf.hpp"

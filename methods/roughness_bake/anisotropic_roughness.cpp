@@ -1,10 +1,9 @@
 // The eigenvectors of a symmetric 2 x 2 matrix, at every texel of LEAN's moments.
-#include "methods/roughness_bake/anisotropic_roughness.hpp"
+#include "methods/roughness_bake/roughness_bake.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "methods/roughness_bake/roughness_bake.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/slope_moments.hpp"
 #include "renderer/core/error.hpp"

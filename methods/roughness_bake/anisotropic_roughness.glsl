@@ -1,4 +1,4 @@
-// One lobe with two widths as KHR_materials_anisotropy draws it, from the texture of anisotropic_roughness.hpp.
+// One lobe with two widths as KHR_materials_anisotropy draws it, from the texture of roughness_bake.hpp.
 //? include mean_normal.glsl
 //? include anisotropic_widths.glsl
 

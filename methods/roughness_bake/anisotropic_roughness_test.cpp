@@ -1,5 +1,5 @@
 // Directed roughness against sums over texels and against the definition of KHR_materials_anisotropy.
-#include "methods/roughness_bake/anisotropic_roughness.hpp"
+#include "methods/roughness_bake/roughness_bake.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "renderer/core/error.hpp"
-#include "renderer/lobes/anisotropic_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 namespace footprint::roughness_bake {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "methods/roughness_bake/anisotropic_roughness.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "methods/tan_gmm/texel_fit.hpp"
+#include "methods/tan_gmm/mixture_chain.hpp"
 
 namespace footprint::tan_gmm {
 namespace {

@@ -4,11 +4,27 @@
 #include <span>
 #include <vector>
 
+#include "methods/tan_gmm/em.hpp"
 #include "methods/tan_gmm/samples.hpp"
-#include "methods/tan_gmm/texel_fit.hpp"
 #include "renderer/core/progress.hpp"
 
 namespace footprint::tan_gmm {
+
+/// Clusters of the samples as components (Tan 2005, section 4.1): the most distant centres, then Lloyd's steps. If
+/// there are fewer distinct samples than components, the others get alpha 0.
+void cluster_start(const Samples& samples, std::span<Gaussian> mixture);
+
+/// All components but one from clusters, and one of variance 1e-4 on the heaviest cell of a histogram, because clusters
+/// miss spikes of equal normals inside a wider spread. Needs two components.
+void dense_start(const Samples& samples, std::span<Gaussian> mixture);
+
+/// Orders the components so that the prior is greatest, because the order of clusters is arbitrary. Components of alpha
+/// 0 get the prior's mean.
+void match_order(const Prior& prior, std::span<Gaussian> mixture);
+
+/// Fits `mixture` to the samples. `parent`: the coarser texel's mixture, or empty. Without samples every alpha is 0.
+void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
+               const FitSettings& settings, std::span<Gaussian> mixture);
 
 /// The stored second moment, which a linear filter can interpolate unlike the variance. corrected: alpha (2 sigma^2 +
 /// |mu|^2), the second moment of an isotropic Gaussian of the disc. published: Tan's alpha (sigma^2 + |mu|^2), which is

@@ -7,7 +7,6 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/bake/specular_weights.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 

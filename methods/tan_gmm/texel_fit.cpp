@@ -1,6 +1,6 @@
 // Starts EM from clusters of far-apart centres, from the densest cell and from the coarser texel, and keeps the
 // likeliest result. Matches components to the prior exactly.
-#include "methods/tan_gmm/texel_fit.hpp"
+#include "methods/tan_gmm/mixture_chain.hpp"
 
 #include <algorithm>
 #include <array>

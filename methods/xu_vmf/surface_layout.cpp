@@ -1,6 +1,6 @@
 // Covers texels with triangles as a rasteriser does, and packs charts into an atlas where coordinates overlap.
 #include "methods/xu_vmf/surface_layout.hpp"
-#include "renderer/scene/shelves.hpp"
+#include "renderer/scene/charts.hpp"
 
 #include <fmt/format.h>
 

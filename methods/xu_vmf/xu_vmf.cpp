@@ -9,7 +9,6 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/bake/specular_weights.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "renderer/lobes/lobe.hpp"

@@ -1,12 +1,11 @@
 // Bakes on disk: stored bakes come back whole, damaged ones do not come back at all.
-#include "renderer/bake/bake_cache.hpp"
+#include "renderer/bake/baked_method.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "renderer/bake/baked_method.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/test_scenes.hpp"

@@ -1,4 +1,4 @@
-// A method's precompute over a whole scene, from the disk cache if possible.
+// A method's precompute over a whole scene, from the disk cache if possible, and the entries of that cache.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,37 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/bake/bake_cache.hpp"
 #include "renderer/bake/method.hpp"
+#include "renderer/bake/prefiltered.hpp"
+#include "renderer/core/bytes.hpp"
+#include "renderer/core/disk_cache.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/scene/material.hpp"
 
 namespace footprint {
+
+/// Writes the value with a checksum, in this machine's byte order. Equal values give equal bytes.
+void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink);
+
+/// The value that `write_bytes` wrote; none if the bytes are truncated, too long, damaged or of another form.
+[[nodiscard]] std::optional<Prefiltered> from_bytes(const ByteSource& bytes);
+
+/// The bakes of methods in a DiskCache; damaged ones count as missing.
+class BakeCache {
+ public:
+  explicit BakeCache(DiskCache files) : files_(std::move(files)) {}
+
+  /// The key of a bake: the method's name, and a hash of this program's executable, the options, the effects and the
+  /// material's values and maps. Another build of the program therefore bakes again.
+  [[nodiscard]] std::string key(const std::string& method, const Material& material, const Options& options,
+                                const EffectSet& effects) const;
+  [[nodiscard]] std::optional<Prefiltered> find(const std::string& key) const;
+  void store(const std::string& key, const Prefiltered& prefiltered) const;
+
+ private:
+  DiskCache files_;
+};
 
 /// A note if a lobe of the material is too narrow for the precision of the option `storage` (stability.md). None
 /// if the method has no such option or does not round lobes, normals do not vary, or all lobes are wide enough.

@@ -1,5 +1,5 @@
 // Maps on which the simple lobes' errors are known: none, or those of two slopes in closed form.
-#include "renderer/bake/lobe_errors.hpp"
+#include "renderer/bake/map_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
-// The maps of a material as images of one form, their coordinates, and the table of those that all methods share.
+// The maps of a material as images of one form, their coordinates, the table of those that all methods share, and the
+// weights that filter colour together with the lobe.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -80,5 +82,21 @@ struct SharedMap {
 
 /// All of them, in the order of their texture units.
 [[nodiscard]] std::span<const SharedMap> shared_maps();
+
+/// The luminance of each texel over the largest, one channel, 0 to 1.
+/// colours: RGB. If all are black, all weights are 0.
+[[nodiscard]] Image specular_weights(const Image& colours);
+
+/// The specular colours of a material (specular_map_of), RGB, one for each texel of another map. None if the map of
+/// specular colours has other texture coordinates, or is finer. A material without that map has white ones.
+/// size: of the other map, texels.
+/// coordinates: of the other map.
+[[nodiscard]] std::optional<Image> specular_over(const Material& material, const glm::ivec2& size,
+                                                 const TextureCoordinates& coordinates);
+
+/// The note of a bake that found none.
+inline constexpr std::string_view specular_elsewhere_note =
+    "the map of specular colours has other texture coordinates or is finer and cannot be joined; it is filtered on its "
+    "own";
 
 }  // namespace footprint

@@ -82,7 +82,7 @@ struct MethodInfo {
   bool draws_directions = false;    ///< the module integrates an environment itself when it is supersampled
   bool lobes_as_given = false;      ///< its option `storage` does not round lobes (storage_range_note)
   bool sums_environment = false;    ///< the module sums a frame's environment light (`environmentSum`)
-  bool slow_precompute = false;     ///< takes seconds, so bakes are cached on disk (bake_cache.hpp)
+  bool slow_precompute = false;     ///< takes seconds, so bakes are cached on disk (baked_method.hpp)
   /// A baked texel depends only on the texels of the normal map under it, so that a part of a map may be baked alone
   /// (renderer/ndf/footprint_texels.hpp).
   bool bakes_by_texel = false;

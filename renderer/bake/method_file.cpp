@@ -16,7 +16,6 @@
 #include "renderer/bake/slope_moments.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/hash.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/core/toml_table.hpp"
 #include "renderer/image/image_io.hpp"

@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/hash.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/image/mipmap.hpp"

@@ -1,11 +1,10 @@
 // Weights by luminance, and colours over the texels of another map.
-#include "renderer/bake/specular_weights.hpp"
+#include "renderer/bake/material_maps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "renderer/bake/material_maps.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {

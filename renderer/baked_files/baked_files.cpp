@@ -12,8 +12,6 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
-#include "renderer/baked_files/bumpslopes.hpp"
-#include "renderer/baked_files/ktx2.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/names.hpp"

@@ -1,5 +1,5 @@
 // Channel by channel from one layout to the other.
-#include "renderer/baked_files/bumpslopes.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

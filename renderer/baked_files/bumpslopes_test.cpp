@@ -1,5 +1,5 @@
 // LEAN's moments against the file that OpenImageIO itself makes of the same map, both ways.
-#include "renderer/baked_files/bumpslopes.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -1,5 +1,5 @@
 // The document as JSON, in which a few members change; bytes come from the checked reader.
-#include "renderer/baked_files/gltf_copy.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "renderer/baked_files/ktx2.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"

@@ -1,5 +1,5 @@
 // Copies of glTF files: the replaced maps are there, all else is as it was, and what makes no sense is refused.
-#include "renderer/baked_files/gltf_copy.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The parts of the file in their order; sections and tables are those of the KTX 2.0 specification and, for the data
 // format descriptor, of the Khronos Data Format Specification 1.3.
-#include "renderer/baked_files/ktx2.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // KTX2 files against a reader that was written from the specification, and the descriptor against its printed examples.
-#include "renderer/baked_files/ktx2.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 
 #include <gtest/gtest.h>
 

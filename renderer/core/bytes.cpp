@@ -40,6 +40,22 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
 
 }  // namespace
 
+std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t state) {
+  constexpr std::uint64_t prime = 0x100000001b3U;
+  for (const std::byte byte : bytes) state = (state ^ std::to_integer<std::uint64_t>(byte)) * prime;
+  return state;
+}
+
+void ContentHash::add(std::span<const std::byte> field) {
+  const std::uint64_t length = field.size();
+  state_ = fnv1a(std::as_bytes(std::span(&length, 1)), state_);
+  state_ = fnv1a(field, state_);
+}
+
+void ContentHash::add(std::string_view field) { add(std::as_bytes(std::span(field))); }
+
+std::string ContentHash::hex() const { return fmt::format("{:016x}", state_); }
+
 std::optional<ByteSource> ByteSource::of_file(const std::filesystem::path& file) {
   // A pipe would wait for its other end.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);

@@ -1,4 +1,5 @@
-// Bytes: sinks that receive them piece by piece, sources in memory or in a file, and values stored with a checksum.
+// Bytes: sinks that receive them piece by piece, sources in memory or in a file, content hashes, and values stored with
+// a checksum.
 #pragma once
 
 #include <array>
@@ -16,9 +17,26 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/core/hash.hpp"
-
 namespace footprint {
+
+/// FNV-1a, 64 bit (Fowler, Noll, Vo), of no bytes.
+inline constexpr std::uint64_t fnv1a_start = 0xcbf29ce484222325U;
+
+/// FNV-1a, 64 bit, continued from `state` over `bytes`.
+[[nodiscard]] std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t state = fnv1a_start);
+
+/// The hash of a sequence of fields. Each field counts with its length, so ("ab", "c") differs from ("a", "bc").
+class ContentHash {
+ public:
+  void add(std::span<const std::byte> field);
+  void add(std::string_view field);
+
+  /// 16 hexadecimal digits, lower case.
+  [[nodiscard]] std::string hex() const;
+
+ private:
+  std::uint64_t state_ = fnv1a_start;
+};
 
 /// Receives the next bytes.
 using ByteSink = std::function<void(std::span<const std::uint8_t>)>;

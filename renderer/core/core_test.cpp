@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/hash.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/core/process.hpp"

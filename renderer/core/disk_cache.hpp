@@ -8,7 +8,6 @@
 #include <string>
 
 #include "renderer/core/bytes.hpp"
-#include "renderer/core/hash.hpp"
 
 namespace footprint {
 

@@ -17,8 +17,8 @@
 #include <system_error>
 #include <utility>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/hash.hpp"
 #include "renderer/core/process.hpp"
 
 namespace footprint {

@@ -1,8 +1,9 @@
-// Numbers from text, whatever the locale.
+// Numbers from text, whatever the locale, and random ones that are equal on every machine.
 #pragma once
 
 #include <charconv>
 #include <optional>
+#include <random>
 #include <string_view>
 #include <system_error>
 
@@ -16,6 +17,11 @@ template <typename Number>
   const auto [stop, status] = std::from_chars(text.data(), end, number);
   if (status != std::errc{} || stop != end) return std::nullopt;
   return number;
+}
+
+/// Uniform in [0, 1): the generator's 53 high bits.
+[[nodiscard]] inline double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11U) * 0x1.0p-53;
 }
 
 }  // namespace footprint

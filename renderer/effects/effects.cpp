@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/scene/small_sun.hpp"
+#include "renderer/scene/environment.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
 
 namespace footprint {

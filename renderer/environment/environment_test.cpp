@@ -7,8 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "renderer/core/random.hpp"
-#include "renderer/environment/octahedral.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/environment/radiance_stack.hpp"
 #include "renderer/environment/reference_tables.hpp"
 

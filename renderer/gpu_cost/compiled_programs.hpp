@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/core/progress.hpp"
-#include "renderer/gpu_cost/chips.hpp"
+#include "renderer/gpu_cost/estimate.hpp"
 #include "renderer/gpu_cost/vulkan_compiler.hpp"
 #include "renderer/languages/spirv.hpp"
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
-#include "renderer/gpu_cost/chips.hpp"
 #include "renderer/gpu_cost/estimate.hpp"
 #include "renderer/gpu_cost/shader_work.hpp"
 #include "renderer/gpu_cost/vulkan_compiler.hpp"

@@ -48,4 +48,10 @@ struct ShaderInput {
 /// Throws Error (machine): SPIRV-Cross refuses it, with its message.
 [[nodiscard]] std::string translate(const Spirv& code, ShaderLanguage language, const std::string& glsl);
 
+/// Inserts the comments of `glsl` before functions and structures of the same name in `text`, and behind members of
+/// those structures. A comment is lines of `//` without indentation just above. Functions of one name get the first
+/// comment, once.
+/// text: a translation by SPIRV-Cross.
+[[nodiscard]] std::string with_comments(const std::string& text, const std::string& glsl);
+
 }  // namespace footprint

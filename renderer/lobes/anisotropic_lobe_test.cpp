@@ -1,6 +1,6 @@
 // Anisotropic lobes against what defines them: the formula of KHR_materials_anisotropy, projected areas of one, and
 // the round lobe.
-#include "renderer/lobes/anisotropic_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
 
 #include <gtest/gtest.h>
 

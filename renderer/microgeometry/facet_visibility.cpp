@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 #include "tests/support/ray_traced_tiling.hpp"
 
 namespace footprint {

@@ -1,10 +1,13 @@
-// A patch of small-scale geometry: triangles that tile the plane, and functions that build grids.
+// A patch of small-scale geometry: triangles that tile the plane, functions that build grids, and the kinds of
+// scene.toml.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,5 +64,24 @@ void add_grid(Patch& patch, int columns, int rows, std::uint8_t paint, const std
 [[nodiscard]] Patch weave_patch(const Options& parameters, std::uint64_t seed);
 [[nodiscard]] Patch noise_patch(const Options& parameters, std::uint64_t seed);
 [[nodiscard]] Patch spheres_patch(const Options& parameters, std::uint64_t seed);
+
+/// A kind of patch. Parameters that are lengths are in periods.
+struct PatchKind {
+  std::string name;
+  std::string summary;  ///< one sentence
+  std::vector<OptionSpec> parameters;
+  /// Deterministic for its parameters and seed.
+  Patch (*build)(const Options& parameters, std::uint64_t seed) = nullptr;
+};
+
+/// `flat`, `grooves`, `pyramids`, `spheres`, `weave` and `noise`.
+[[nodiscard]] std::span<const PatchKind> patch_kinds();
+
+/// Finds a kind by name. Throws Error (usage) with the nearest name if it is unknown.
+[[nodiscard]] const PatchKind& find_patch_kind(const std::string& name);
+
+/// Builds a patch of a kind with the `given` parameters. Throws Error (usage) as Options does.
+[[nodiscard]] Patch make_patch(const PatchKind& kind, const std::map<std::string, std::string>& given,
+                               std::uint64_t seed = 1);
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // Tables of a BRDF: the cell of two directions, against rotations by the angles that name it.
-#include "renderer/microgeometry/tabulated_brdf.hpp"
+#include "renderer/microgeometry/microgeometry.hpp"
 
 #include <gtest/gtest.h>
 

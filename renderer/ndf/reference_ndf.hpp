@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "renderer/core/progress.hpp"
-#include "renderer/lobes/anisotropic_lobe.hpp"
 #include "renderer/lobes/lobe.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 

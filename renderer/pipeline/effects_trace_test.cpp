@@ -8,7 +8,7 @@
 #include <string>
 
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/shadow_scenes.hpp"

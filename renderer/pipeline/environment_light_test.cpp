@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "renderer/environment/octahedral.hpp"
+#include "renderer/environment/radiance_stack.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/rendering.hpp"

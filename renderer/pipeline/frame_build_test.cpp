@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "renderer/bake/bake_cache.hpp"
+#include "renderer/bake/baked_method.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/pipeline/frame.hpp"

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "renderer/bake/prefiltered.hpp"
-#include "renderer/core/hash.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
-#include "renderer/pipeline/gpu_area_cosines.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/pipeline/lights.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"

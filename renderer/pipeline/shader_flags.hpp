@@ -78,8 +78,8 @@ struct ShaderVariant {
   bool finest_coat = false;          ///< of a frame: MethodInfo::reads_finest_level
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled only if the module draws directions
   bool sums_environment = false;                             ///< MethodInfo::sums_environment
-  std::size_t environment_suns = 0;                          ///< suns separated from the environment (small_sun.hpp)
-  std::size_t facet_lobes = most_facet_lobes;                ///< capacity per material; a smaller one compiles faster
+  std::size_t environment_suns = 0;            ///< suns separated from the environment (scene/environment.hpp)
+  std::size_t facet_lobes = most_facet_lobes;  ///< capacity per material; a smaller one compiles faster
   std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
   std::size_t area_lights = 0;  ///< of the block
   std::size_t area_points = 0;  ///< that the program evaluates as points of light

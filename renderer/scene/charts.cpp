@@ -14,10 +14,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "renderer/core/hash.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/shelves.hpp"
 
 namespace footprint {
 namespace {

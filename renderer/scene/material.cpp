@@ -1,6 +1,17 @@
 // The base lobe of a material, and access to its maps.
 #include "renderer/scene/material.hpp"
 
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "renderer/microgeometry/microgeometry.hpp"
+#include "renderer/scene/scene.hpp"
+
 namespace footprint {
 namespace {
 
@@ -48,6 +59,190 @@ Lobe own_lobe_of(const Material& material) {
   return lobe_from_alpha(distribution, roughness * roughness);
 }
 
+// Values that are their bytes.
+template <class T>
+struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+template <int size, class T, glm::qualifier q>
+struct IsPlain<glm::vec<size, T, q>> : std::true_type {};
+template <int columns, int rows, class T, glm::qualifier q>
+struct IsPlain<glm::mat<columns, rows, T, q>> : std::true_type {};
+
+// Counts values into a hash. Structures are taken apart by structured bindings: one with a field more does not compile
+// until that field is counted.
+class Counter {
+ public:
+  explicit Counter(ContentHash& hash) : hash_(&hash) {}
+
+  template <class T>
+  requires IsPlain<T>::value void add(const T& value) { hash_->add(std::as_bytes(std::span(&value, 1))); }
+
+  template <class T>
+  void add(const std::vector<T>& values) {
+    if constexpr (IsPlain<T>::value) {
+      hash_->add(std::as_bytes(std::span(values)));
+    } else {
+      add(values.size());
+      for (const T& value : values) add(value);
+    }
+  }
+
+  template <class T>
+  void add(const std::optional<T>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+
+  template <class T>
+  void add(const std::shared_ptr<const T>& value) {
+    add(value != nullptr);
+    if (value) add(*value);
+  }
+
+  void add(const std::string& text) { hash_->add(text); }
+
+  template <class... T>
+  void add(const std::variant<T...>& value) {
+    add(value.index());
+    std::visit([this](const auto& content) { add(content); }, value);
+  }
+
+  void add(const Image& image) {
+    const auto& [width, height, channels, texels] = image;
+    add_all(width, height, channels, texels);
+  }
+
+  void add(const BaseBrdf& brdf) {
+    const auto& [distribution, geometry, fresnel, diffuse] = brdf;
+    add_all(distribution, geometry, fresnel, diffuse);
+  }
+
+  void add(const TextureCoordinates& coordinates) {
+    const auto& [set, transform, wrap] = coordinates;
+    add_all(set, transform, wrap[0], wrap[1]);
+  }
+
+  void add(const TextureMap& map) {
+    const auto& [name, image, coordinates] = map;
+    add(static_cast<bool>(image));
+    if (image) add(image.decoded());
+    add(coordinates);
+  }
+
+  void add(const FacetLobe& lobe) {
+    const auto& [axis, parameter, weight] = lobe;
+    add_all(axis, parameter, weight);
+  }
+
+  void add(const Anisotropy& anisotropy) {
+    const auto& [strength, rotation] = anisotropy;
+    add_all(strength, rotation);
+  }
+
+  void add(const ClearCoat& coat) {
+    const auto& [weight, roughness, weight_map, roughness_map, normal_map] = coat;
+    add_all(weight, roughness, weight_map, roughness_map, normal_map);
+  }
+
+  void add(const SurfaceShare& share) {
+    const auto& [map, first] = share;
+    add_all(map, first);
+  }
+
+  void add(const Patch& patch) {
+    const auto& [name, period, vertices, triangles, paints, palette] = patch;
+    add_all(period, vertices, triangles, paints, palette);
+  }
+
+  void add(const TabulatedBrdf& brdf) {
+    const auto& [values] = brdf;
+    add(values);
+  }
+
+  void add(const Microgeometry& microgeometry) {
+    const auto& [patch, mean_color, brdf] = microgeometry;
+    add_all(patch, mean_color, brdf);
+  }
+
+  void add(const Material& material) {
+    const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy,
+                 base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat,
+                 share, alpha_cutoff, double_sided, unlit, microgeometry] = material;
+    add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy);
+    add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat);
+    add_all(share, alpha_cutoff, double_sided, unlit, microgeometry);
+  }
+
+  void add(const Mesh& mesh) {
+    const auto& [name, vertices, indices, material] = mesh;
+    static_assert(sizeof(Vertex) == 18 * sizeof(float), "a vertex is its bytes, without gaps");
+    hash_->add(std::as_bytes(std::span(vertices)));
+    add_all(name, indices, material);
+  }
+
+  void add(const PointLight& light) {
+    const auto& [position, intensity, range] = light;
+    add_all(position, intensity, range);
+  }
+
+  void add(const SpotLight& light) {
+    const auto& [point, direction, inner, outer] = light;
+    add_all(point, direction, inner, outer);
+  }
+
+  void add(const DirectionalLight& light) {
+    const auto& [direction, illuminance] = light;
+    add_all(direction, illuminance);
+  }
+
+  void add(const AreaLight& light) {
+    const auto& [shape, position, direction, across, up, half_size, intensity, integral, points] = light;
+    add_all(shape, position, direction, across, up, half_size, intensity, integral, points);
+  }
+
+  void add(const Camera& camera) {
+    const auto& [world, orthographic, yfov, ymag, znear, zfar, aspect] = camera;
+    add_all(world, orthographic, yfov, ymag, znear, zfar, aspect);
+  }
+
+  void add(const Environment& environment) {
+    const auto& [name, radiance, rotation] = environment;
+    add_all(name, radiance, rotation);
+  }
+
+  void add(const ShadowSettings& shadows) {
+    const auto& [cast, both_sides, resolution] = shadows;
+    add_all(cast, both_sides, resolution);
+  }
+
+  void add(const Bounds& bounds) {
+    const auto& [lower, upper] = bounds;
+    add_all(lower, upper);
+  }
+
+  void add(const Motion& motion) { add_all(motion.last_key, motion.content); }
+
+  void add(const FootprintFilter& filter) {
+    const auto& [kind, count, depth] = filter;
+    add_all(kind, count, depth);
+  }
+
+  void add(const Scene& scene) {
+    const auto& [name, source, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint,
+                 exposure, distances, frame_size, choices, motion, defaults, warnings] = scene;
+    add_all(name, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint, exposure);
+    add_all(distances, frame_size, motion, defaults, warnings);
+    for (const Material& material : materials) add(material.name);
+  }
+
+ private:
+  template <class... T>
+  void add_all(const T&... values) {
+    (add(values), ...);
+  }
+
+  ContentHash* hash_;
+};
+
 }  // namespace
 
 std::vector<TextureMap*> maps_of(Material& material) { return maps_in<TextureMap>(material); }
@@ -65,5 +260,9 @@ Lobe lobe_of(const Material& material) {
   if (!material.anisotropy) return own;
   return {own.distribution, static_cast<float>(round_alpha(alphas_of(material, own.parameter)))};
 }
+
+void add_content(ContentHash& hash, const Material& material) { Counter(hash).add(material); }
+
+void add_content(ContentHash& hash, const Scene& scene) { Counter(hash).add(scene); }
 
 }  // namespace footprint

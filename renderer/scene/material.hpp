@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/lobes/anisotropic_lobe.hpp"
 #include "renderer/lobes/lobe.hpp"
 #include "renderer/scene/map_texels.hpp"
 

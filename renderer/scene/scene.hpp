@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "renderer/core/hash.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/scene/environment.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"

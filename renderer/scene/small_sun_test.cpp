@@ -1,6 +1,6 @@
 // A texel or a few that have a part of an environment's light are separated, to the last bit of that light; a soft
 // sun, an even sky and coarse maps have none.
-#include "renderer/scene/small_sun.hpp"
+#include "renderer/scene/environment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "renderer/environment/octahedral.hpp"
+#include "renderer/environment/radiance_stack.hpp"
 
 namespace footprint {
 namespace {

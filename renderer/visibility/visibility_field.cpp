@@ -16,9 +16,8 @@
 
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/hash.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/environment/octahedral.hpp"
+#include "renderer/environment/radiance_stack.hpp"
 #include "renderer/environment/reference_tables.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/visibility/signed_distance.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "renderer/core/error.hpp"
-#include "renderer/environment/octahedral.hpp"
+#include "renderer/environment/radiance_stack.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "tests/support/shadow_scenes.hpp"
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "renderer/core/error.hpp"
-#include "results/report/markup.hpp"
+#include "results/report/page.hpp"
 
 namespace footprint {
 namespace {

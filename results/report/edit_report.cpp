@@ -8,9 +8,9 @@
 
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
-#include "results/report/csv_field.hpp"
+#include "results/report/columns.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/markup.hpp"
+#include "results/report/page.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 

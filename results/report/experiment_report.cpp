@@ -11,7 +11,7 @@
 
 #include "results/report/check_outcomes.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/markup.hpp"
+#include "results/report/page.hpp"
 
 namespace footprint {
 namespace {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/report/markup.hpp"
 #include "results/report/page.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"

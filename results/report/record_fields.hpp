@@ -6,7 +6,6 @@
 
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
-#include "results/report/matrix_report.hpp"
 #include "results/report/ndf_report.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/recommendation.hpp"

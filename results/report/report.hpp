@@ -71,4 +71,26 @@ struct ListedReference {
 /// The files below images/ in an output folder, as paths from it, sorted.
 [[nodiscard]] std::vector<std::string> images_in(const std::filesystem::path& folder);
 
+/// One member.
+struct MatrixMember {
+  std::string folder;  ///< of its own report, next to that of the matrix
+  Results results;     ///< with its coordinates
+};
+
+/// A whole matrix, or the part of it that was run.
+struct MatrixResults {
+  ExperimentReport report;            ///< claims, thresholds and published figures over all members
+  std::vector<std::string> left_out;  ///< of those, the ones over members that were not run: they are not judged
+  std::vector<MatrixMember> members;  ///< one or more
+};
+
+/// Its claims and thresholds, and every record in one table, in Markdown.
+[[nodiscard]] std::string matrix_table(const MatrixResults& matrix);
+
+/// The page over all members, which shows their pictures in their folders; else as results_page (report.hpp).
+[[nodiscard]] std::string matrix_page(const MatrixResults& matrix);
+
+/// Writes the files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
+void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder);
+
 }  // namespace footprint

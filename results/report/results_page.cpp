@@ -11,7 +11,6 @@
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/gpu_cost_report.hpp"
-#include "results/report/matrix_report.hpp"
 #include "results/report/page.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "renderer/core/error.hpp"
-#include "results/report/markup.hpp"
+#include "results/report/page.hpp"
 #include "results/report/report.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/fresh_folder.hpp"

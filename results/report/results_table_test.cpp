@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "results/report/figures.hpp"
-#include "results/report/markup.hpp"
+#include "results/report/page.hpp"
 #include "results/report/report.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/says.hpp"

@@ -1,7 +1,7 @@
 // bumps: round bumps of random position, width and height, close together, with smooth valleys between them.
 #include <cmath>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 

@@ -6,10 +6,9 @@
 #include <numbers>
 #include <span>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint::surfaces::carved_disk {

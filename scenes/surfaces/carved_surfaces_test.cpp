@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "scenes/surfaces/noise.hpp"
+#include "scenes/surfaces/height.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/surface_maps.hpp"
 

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint::surfaces::cast_metal {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "scenes/surfaces/meshes.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 

@@ -5,12 +5,12 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/surface.hpp"
+#include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/jacquard.hpp"
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint {

@@ -6,7 +6,6 @@
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/jacquard.hpp"
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint::surfaces::pillow {

@@ -4,7 +4,6 @@
 
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"
-#include "scenes/surfaces/noise.hpp"
 #include "scenes/surfaces/texel_grid.hpp"
 
 namespace footprint::surfaces::tablecloth {

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/jacquard.hpp"
-#include "scenes/surfaces/noise.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/surface_maps.hpp"
 #include "tests/support/texture_coverage.hpp"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "renderer/bake/bake_cache.hpp"
+#include "renderer/bake/baked_method.hpp"
 #include "renderer/bake/method_file.hpp"
-#include "renderer/core/hash.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/environment.hpp"

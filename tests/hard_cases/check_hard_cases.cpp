@@ -5,7 +5,6 @@
 
 #include "app/messages.hpp"
 #include "app/output.hpp"
-#include "app/progress_display.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "tests/hard_cases/hard_report.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint::hard_cases {
 

@@ -105,7 +105,7 @@ Scene steep_plaster() {
   return scene;
 }
 
-// The sun is one texel. A small sun becomes a directional light (renderer/scene/small_sun.hpp).
+// The sun is one texel. A small sun becomes a directional light (renderer/scene/environment.hpp).
 Scene surrounded(float sun, int width = 32) {
   Scene scene = bumpy();
   Image map(width, width / 2, 3, 0.0F);

@@ -8,7 +8,7 @@
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/scene/small_sun.hpp"
+#include "renderer/scene/environment.hpp"
 #include "tests/methods/method_number.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/sweep.hpp"

@@ -8,7 +8,7 @@
 
 #include "renderer/bake/method.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint {

@@ -9,7 +9,7 @@
 
 #include "methods/registry.hpp"
 #include "renderer/baked_files/baked_files.hpp"
-#include "renderer/languages/comments.hpp"
+#include "renderer/languages/translation.hpp"
 #include "renderer/pipeline/surface_program.hpp"
 #include "tests/methods/bare_renderer.hpp"
 #include "tests/support/fresh_folder.hpp"

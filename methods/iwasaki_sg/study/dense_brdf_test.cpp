@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "methods/quantities.hpp"
+#include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "tests/methods/iwasaki_materials.hpp"

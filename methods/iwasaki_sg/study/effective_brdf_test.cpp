@@ -7,7 +7,7 @@
 #include <random>
 
 #include "methods/iwasaki_sg/material_table.hpp"
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "tests/methods/iwasaki_materials.hpp"
 #include "tests/support/method_probe.hpp"

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 
 namespace footprint::iwasaki_sg {
 namespace {

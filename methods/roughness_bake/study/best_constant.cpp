@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "methods/quantities.hpp"
+#include "methods/registry.hpp"
 #include "methods/roughness_bake/presets.hpp"
 
 namespace footprint::roughness_bake {

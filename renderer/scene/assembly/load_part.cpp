@@ -11,7 +11,6 @@
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
-#include "renderer/scene/assembly/texel_spread.hpp"
 #include "renderer/scene/charts.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/model.hpp"

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "renderer/microgeometry/microgeometry.hpp"
-#include "renderer/microgeometry/tabulated_brdf.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/settings/part.hpp"
 

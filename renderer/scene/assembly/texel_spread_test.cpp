@@ -1,5 +1,5 @@
 // Effective lobes of texels against Xu et al. 2017, equations 11 to 13, in double precision.
-#include "renderer/scene/assembly/texel_spread.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
 
 #include <gtest/gtest.h>
 

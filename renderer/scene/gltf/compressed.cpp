@@ -1,5 +1,5 @@
 // Checks all sizes, counts and indices around the two libraries, which trust their input.
-#include "renderer/scene/gltf/compressed.hpp"
+#include "renderer/scene/gltf/document.hpp"
 
 #include <draco/compression/decode.h>
 #include <fmt/format.h>

@@ -16,7 +16,6 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/scene/gltf/check.hpp"
-#include "renderer/scene/gltf/compressed.hpp"
 
 namespace footprint {
 namespace {

@@ -1,16 +1,17 @@
-// A glTF file, read by tinygltf and checked, and its accessors.
+// A glTF file, read by tinygltf, decompressed and checked, and its accessors.
 #pragma once
 
 #include <tiny_gltf.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 namespace footprint {
 
 /// A checked document: indices are in range, and buffer views within their buffers. Compressed geometry
-/// (compressed.hpp) is decoded. `model.images[i].image` stores encoded bytes, empty if an external file could not be
+/// is decoded. `model.images[i].image` stores encoded bytes, empty if an external file could not be
 /// read.
 struct GltfDocument {
   tinygltf::Model model;
@@ -34,5 +35,23 @@ inline constexpr std::uint64_t largest_element_count = std::uint64_t{1} << 26U;
 
 /// All elements of a scalar accessor of unsigned 8, 16 or 32 bit integers. Throws as read_floats.
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor);
+
+/// Adds a byte to fallback buffers of compressed data, because tinygltf refuses empty buffers. Returns whether there
+/// are any. The document must be checked. Throws Error (usage): an uncompressed buffer view in such a buffer; an image
+/// in a compressed one.
+[[nodiscard]] bool fill_fallback_buffers(nlohmann::json& document);
+
+/// Decodes every compressed buffer view into its own buffer. Throws Error (usage) that names the buffer view: damaged
+/// data, data outside of its buffer, or an invalid size, mode or filter.
+void decode_meshopt(tinygltf::Model& model);
+
+/// Assigns the compressed data's buffer view to accessors of indices without one, which tinygltf refuses; decode_draco
+/// replaces it. Returns whether there are any. The document must be checked.
+[[nodiscard]] bool fill_draco_indices(nlohmann::json& document);
+
+/// Decodes every compressed primitive into its own buffers and points its accessors there. Primitives with uncompressed
+/// buffer views are not changed. Throws Error (usage) that names the primitive: damaged data, or counts, components or
+/// types that differ from the accessors'.
+void decode_draco(tinygltf::Model& model);
 
 }  // namespace footprint

@@ -1,5 +1,5 @@
 // Reads the attributes, moves them into the world, and repairs or computes the normals and tangents.
-#include "renderer/scene/gltf/mesh.hpp"
+#include "renderer/scene/gltf/pose.hpp"
 
 #include <fmt/format.h>
 

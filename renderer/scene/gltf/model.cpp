@@ -14,7 +14,6 @@
 #include "renderer/scene/gltf/check.hpp"
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/gltf/material.hpp"
-#include "renderer/scene/gltf/mesh.hpp"
 #include "renderer/scene/gltf/pose.hpp"
 
 namespace footprint {

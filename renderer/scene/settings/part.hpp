@@ -1,6 +1,7 @@
 // What scene.toml draws: the parts of a scene as plain values; docs/reference/scenes.md is its reference.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -11,14 +12,39 @@
 #include <variant>
 #include <vector>
 
+#include "renderer/core/names.hpp"
 #include "renderer/core/toml_table.hpp"
-#include "renderer/microgeometry/patch_kinds.hpp"
+#include "renderer/microgeometry/patch.hpp"
 #include "renderer/scene/material.hpp"
-#include "renderer/scene/normal_file.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/surface.hpp"
 
 namespace footprint {
+
+/// The derivative of a height field: differences of the two neighbours along an axis, over their distance of two
+/// texels, as weighted means over three rows.
+enum class SlopeFilter {
+  central,  ///< the texel's own row alone
+  sobel,    ///< rows weighted 1, 2, 1: OpenImageIO's `maketx --bumpslopes`
+  scharr,   ///< rows weighted 3, 10, 3
+};
+
+inline constexpr std::array<Word<SlopeFilter>, 3> slope_filters{
+    {{SlopeFilter::central, "central"}, {SlopeFilter::sobel, "sobel"}, {SlopeFilter::scharr, "scharr"}}};
+
+/// How heights become slopes.
+struct HeightSettings {
+  SlopeFilter filter = SlopeFilter::central;
+  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};  ///< neighbours beyond the border, along u and v
+};
+
+/// A file of normals, or of heights in its first channel.
+struct NormalFile {
+  std::filesystem::path path;
+  double scale = 1.0;  ///< factor on slopes; for heights, the height of value 1 in widths of the map
+  NormalChannels channels = NormalChannels::xyz;
+  std::optional<HeightSettings> heights{};  ///< none: the file stores normals
+};
 
 /// A model file: the first of `candidates` that exists.
 struct ModelSettings {

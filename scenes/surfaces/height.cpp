@@ -1,10 +1,10 @@
 // Gradient noise with Perlin's quintic fade; its slope follows from the same lookup by the chain rule.
-#include "scenes/surfaces/noise.hpp"
+#include "scenes/surfaces/height.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "renderer/core/random.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {

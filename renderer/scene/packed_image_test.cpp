@@ -1,5 +1,5 @@
 // Every image comes back to the last bit, in as many bytes as its values need.
-#include "renderer/image/packed_image.hpp"
+#include "renderer/scene/map_texels.hpp"
 
 #include <gtest/gtest.h>
 

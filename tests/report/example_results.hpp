@@ -1,7 +1,7 @@
 // Runs made up for the tests of this folder: one as a scene gives it, one with everything that could break a page.
 #pragma once
 
-#include "results/report/matrix_report.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 

@@ -1,5 +1,4 @@
 // `footprint shader`: a method's module in a shader language.
-#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

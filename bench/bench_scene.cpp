@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
-#include <string_view>
 
 #include "app/folders.hpp"
 #include "methods/registry.hpp"

@@ -19,8 +19,6 @@
 #include "experiments/studies/views.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/scene/assembly/load_scene.hpp"
-#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

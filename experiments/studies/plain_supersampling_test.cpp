@@ -12,7 +12,6 @@
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/scene/assembly/load_scene.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/test_scenes.hpp"
 

@@ -2,7 +2,6 @@
 // at each pixel.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>

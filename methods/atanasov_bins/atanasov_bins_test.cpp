@@ -4,9 +4,7 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "methods/best_lobes/lobe_shapes.hpp"
 #include "methods/best_lobes/other_methods.hpp"
 #include "methods/best_lobes/starts.hpp"
-#include "methods/best_lobes/texel_fit.hpp"
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"

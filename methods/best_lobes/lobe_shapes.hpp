@@ -1,10 +1,13 @@
-// The lobes that are fitted: the base lobe about a mean, widened or stretched, with derivatives by its parameters.
+// The shapes that lobes of a fit can have, and the fit of K lobes to the NDF of a texel.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "methods/fournier/peaks.hpp"
 #include "renderer/lobes/lobe.hpp"
 
 namespace footprint::best_lobes {
@@ -76,5 +79,30 @@ class LobeFamily {
   double support_;  // the greatest u of a base lobe that is not negligible
   Shape shape_;
 };
+
+/// The result of one fit.
+struct LobeFit {
+  std::vector<FittedLobe> lobes;  ///< heaviest first
+  /// L2 distance to the target over the directions above the surface, relative to the norm of the target.
+  double error = 0.0;
+  bool converged = true;  ///< whether the last minimisation ended before its most evaluations
+  bool resolved = true;   ///< whether the base lobe is wide enough; else the fit has a wider one, and is no bound
+};
+
+/// Mixtures of a number of lobes that a fit starts from, next to its own.
+using Starts = std::function<std::vector<std::vector<FittedLobe>>(std::size_t count)>;
+
+/// The edge of the cells of Lambert's disc that normals are pooled in: a sixteenth of the base lobe's deviation.
+[[nodiscard]] double cell_edge(const LobeFamily& family);
+
+/// The weights of the lobes together: those of the target, or as the fit has them. One lobe for facets of different
+/// roughness has not their energy.
+enum class Weights { of_target, free };
+
+/// Fits 1 to `count` lobes, one more after the other, each time from several starts, and keeps the best of all. Where
+/// it is resolved, the error exceeds neither that of any mixture of `starts` nor that of fewer lobes. target: pooled
+/// normals, not empty; their spread is small against the base lobe.
+[[nodiscard]] LobeFit fit_lobes(std::span<const fournier::Peak> target, std::size_t count, const LobeFamily& family,
+                                const Starts& starts, Weights weights = Weights::of_target);
 
 }  // namespace footprint::best_lobes

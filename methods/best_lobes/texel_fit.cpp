@@ -1,7 +1,7 @@
 // Levenberg-Marquardt over weights, means, deviations and spreads of the lobes on a lattice of directions. Starts are
 // the best lobes of one fewer and another where most is missing; clusters about k-means++ seeds, and EM from those; and
 // the lobes of other methods. No step goes up, so the best end is no worse than any start.
-#include "methods/best_lobes/texel_fit.hpp"
+#include "methods/best_lobes/lobe_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,10 @@
 // Lobes and their derivatives against twins and differences; fits of known lobes, and what every fit must keep.
-#include "methods/best_lobes/texel_fit.hpp"
+#include "methods/best_lobes/lobe_shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace footprint::best_lobes {

@@ -2,7 +2,6 @@
 // each part, the same for all levels.
 #pragma once
 
-#include <cmath>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>

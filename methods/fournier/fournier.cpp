@@ -1,11 +1,9 @@
 // `fournier`: a few Phong peaks per texel at every mip level, fitted to the distribution of normals. All peaks of the
 // footprint's texels are summed. Fournier 1992, "Normal distribution functions and multiple surfaces".
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "methods/fournier/peak_chain.hpp"
-#include "methods/fournier/peaks.hpp"
 #include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/lobes/lobe.hpp"

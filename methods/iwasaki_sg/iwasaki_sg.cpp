@@ -1,6 +1,5 @@
 // `iwasaki_sg`: represents the visible normals of a patch of small-scale geometry by spherical Gaussians, and convolves
 // them with the base BRDF. Iwasaki, Dobashi, Nishita 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
-#include <string>
 
 #include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "methods/iwasaki_sg/material_table.hpp"

@@ -1,7 +1,6 @@
 // The method as a whole: flat patches give the base BRDF back, patches the sum over their visible facets.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "renderer/environment/reference_tables.hpp"
 #include "renderer/lobes/lobe.hpp"

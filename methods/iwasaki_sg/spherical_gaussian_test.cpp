@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "renderer/lobes/lobe.hpp"

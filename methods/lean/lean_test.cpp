@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "renderer/bake/slope_moments.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "tests/support/method_probe.hpp"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <vector>
 
 namespace footprint::tan_gmm {
 namespace {

@@ -1,6 +1,5 @@
 // `tan_gmm`: a mixture of Gaussians over the normals of every texel of every level. Neighbours align their components,
 // so that the texture filter can blend them. Tan, Lin, Quan, Guo, Shum 2005, "Multiresolution Reflectance Filtering".
-#include <algorithm>
 #include <utility>
 
 #include "methods/tan_gmm/mixture_chain.hpp"

@@ -1,7 +1,6 @@
 // The map in camera space: rotation, culling, coverage and charts, and frames of what moves.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -2,7 +2,6 @@
 // hemisphere, and average.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "renderer/bake/method.hpp"

@@ -1,8 +1,6 @@
 // The lobes' conversions and mixtures against golden numbers, and the density that comes of them.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

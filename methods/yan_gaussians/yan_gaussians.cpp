@@ -2,14 +2,11 @@
 // over positions and normals. A reference for prefiltering on surfaces where every glint is visible.
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "methods/yan_gaussians/elements.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/image/mipmap.hpp"
 
 namespace footprint {
 

@@ -2,7 +2,6 @@
 // format descriptor, of the Khronos Data Format Specification 1.3.
 #include "renderer/baked_files/baked_files.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <numeric>

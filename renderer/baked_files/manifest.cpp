@@ -5,7 +5,6 @@
 
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
-#include <type_traits>
 
 #include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"

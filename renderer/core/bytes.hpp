@@ -2,7 +2,6 @@
 // a checksum.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

@@ -5,7 +5,6 @@
 
 #include <memory>
 
-#include <algorithm>
 #include <set>
 
 #include "renderer/scene/geometry.hpp"

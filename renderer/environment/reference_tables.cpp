@@ -2,7 +2,6 @@
 #include "renderer/environment/reference_tables.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
 

@@ -1,6 +1,5 @@
 // Counts of programs that are known, by the driver's own compiler, and the arithmetic of an estimate. CTest sets the
 // chip (RADV_FORCE_FAMILY).
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

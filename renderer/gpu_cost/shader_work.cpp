@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <ranges>
-#include <sstream>
 #include <string_view>
 #include <vector>
 

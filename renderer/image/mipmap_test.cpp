@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <random>
-#include <tuple>
 
 #include <tbb/global_control.h>
 

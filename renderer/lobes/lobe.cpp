@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"

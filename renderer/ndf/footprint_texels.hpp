@@ -1,12 +1,10 @@
 // The facets under a footprint, and the part of a normal map that a footprint covers.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
 
-#include "renderer/lobes/lobe.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
 

@@ -1,8 +1,6 @@
 // Draws the module of a method over a square of directions instead of a frame.
 #include "renderer/ndf/method_ndf.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,6 @@
 // The clear coat against KHR_materials_clearcoat's formulas in double precision, which share no code with the shaders.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>

@@ -1,7 +1,6 @@
 // Creates the textures of each use of an environment, and uploads visibility as layers and vertex attributes.
 #include "renderer/pipeline/gpu_environment.hpp"
 
-#include <array>
 #include <glm/glm.hpp>
 #include <memory>
 #include <mutex>

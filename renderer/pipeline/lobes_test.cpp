@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "renderer/pipeline/shader_source.hpp"
-#include "tests/support/rendering.hpp"
 #include "tests/support/shader_probe.hpp"
 
 namespace footprint::testing {

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/pipeline/shader_source.hpp"
 #include "tests/support/shader_probe.hpp"
 
 namespace footprint::testing {

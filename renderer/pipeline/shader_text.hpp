@@ -1,7 +1,6 @@
 // The text of one stage: shared files and a module, without the parts that the scene does not need.
 #pragma once
 
-#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "renderer/effects/effects.hpp"
 #include "renderer/gl/context.hpp"

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <span>
 #include <string_view>
 
 #include "renderer/core/bytes.hpp"

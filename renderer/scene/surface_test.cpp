@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "tests/support/gltf_builder.hpp"

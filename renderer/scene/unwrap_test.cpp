@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "renderer/scene/charts.hpp"
 #include "renderer/scene/geometry.hpp"

@@ -103,7 +103,12 @@ struct Facets {
 };
 
 //? if multi_lobe
-//? include facet_lobes.glsl
+//? include facet_frame.glsl
+// Lobe k over facets with a slope variance per axis of `spread`; the axes of the lobes rotate with the normal of the facet.
+float widenedLobe(int k, float spread) {
+  return spread > 0.0 ? lobeFromVariance(facet_lobes[k].variance + spread) : facet_lobes[k].parameter;
+}
+
 Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe, 0.0); }
 // `variance` is the base lobe's, `spread` that of the normals, both slope variances per axis.
 Facets spreadFacets(vec3 normal, float variance, float spread) {

@@ -2,10 +2,30 @@
 // a bump layer, and the lobe of common_slopes.glsl over them. The flag `with_mean_normal` says whether the textures
 // include the mean normal, for a diffuse term over one map only.
 //? include common_slopes.glsl
-//? include fetch_pair.glsl
 //? if not normal_variation or not roughness_moments
 //? include lobe_variance.glsl
 //? end
+
+// As `fetch`, for two textures of the same size. One loop over the probes reads both, because position, weight and level are
+// shared.
+void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
+//? if sampling_frame and not filter_hardware
+  Probes p = probesOf(vec2(textureSize(first, 0)), f);
+  countLookups(2 * p.count);
+  of_first = vec4(0.0);
+  of_second = vec4(0.0);
+  int i = 0;
+  do {
+    vec2 uv = probeUv(f, p, i);
+    float weight = probeWeight(p, i);
+    of_first += weight * textureLod(first, uv, p.level);
+    of_second += weight * textureLod(second, uv, p.level);
+  } while (++i < p.count);
+//? else
+  of_first = fetch(first, f);
+  of_second = fetch(second, f);
+//? end
+}
 
 struct FilteredSlopes {
   vec2 mean;

@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "tests/support/shadow_scenes.hpp"
 
 namespace footprint::testing {

@@ -9,9 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "renderer/core/bytes.hpp"

@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "renderer/core/files.hpp"
-#include "renderer/core/memory.hpp"
 #include "results/report/columns.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"

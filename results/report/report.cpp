@@ -14,7 +14,6 @@
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {

@@ -1,7 +1,6 @@
 // table.md and the wording of figures.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <sstream>
 
 #include "results/report/figures.hpp"

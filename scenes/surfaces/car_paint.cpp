@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "renderer/core/numbers.hpp"
 #include "scenes/surfaces/height.hpp"

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "scenes/surfaces/height.hpp"

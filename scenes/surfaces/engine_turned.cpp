@@ -2,7 +2,6 @@
 // scratches.
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "renderer/core/numbers.hpp"
 #include "scenes/surfaces/meshes.hpp"

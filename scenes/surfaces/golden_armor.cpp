@@ -1,5 +1,4 @@
 // golden_armor: overlapping round scales of domed metal, each row over the next lower one, on a curved breast plate.
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -1,6 +1,5 @@
 // tablecloth: a square cloth over a round table, with a creased weave made of noise.
 #include <array>
-#include <cmath>
 
 #include "scenes/surfaces/height.hpp"
 #include "scenes/surfaces/meshes.hpp"

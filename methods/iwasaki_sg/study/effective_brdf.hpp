@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>

@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/microgeometry/direction_grid.hpp"
-
 namespace footprint::iwasaki_sg {
 namespace {
 

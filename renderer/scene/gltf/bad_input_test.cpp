@@ -1,7 +1,6 @@
 // Broken and hostile glTF files: one clear error each, before memory is taken.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 

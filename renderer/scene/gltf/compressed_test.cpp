@@ -9,7 +9,6 @@
 #include <cstring>
 #include <random>
 
-#include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/model.hpp"
 #include "tests/support/gltf_builder.hpp"
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "renderer/scene/model.hpp"
 #include "tests/support/expect_near.hpp"

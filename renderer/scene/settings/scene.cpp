@@ -1,8 +1,6 @@
 // Reads frame, lights, camera, zoom, shadows and environment; parts have their own reader.
 #include "renderer/scene/settings/scene.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <numbers>

@@ -56,7 +56,7 @@ auto write_whole(const std::filesystem::path& output, Write write) {
 template <typename Measured, typename Write>
 void keep_results(Measured& results, OutputFolder& folder, Write write, const char* document = "results.json") {
   sign(results.tool, results.backend);
-  if constexpr (requires { results.files; }) results.files = images_in(folder.path());
+  if constexpr (requires { results.files; }) results.files = files_below(folder.path(), "images");
   write(results, folder.path());
   folder.replaces(listed_files(folder.final_path() / document));
   keep(folder);

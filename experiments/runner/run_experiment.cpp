@@ -19,6 +19,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/record_fields.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 
@@ -60,17 +61,6 @@ std::vector<FootprintNdf> inspected(const Experiment& experiment, const NdfSourc
                        .picture = subfolder + "/" + found.strip});
   }
   return figures;
-}
-
-// The files of a subfolder, relative to `folder`.
-std::vector<std::string> files_below(const std::filesystem::path& folder, const std::string& subfolder) {
-  std::vector<std::string> files;
-  if (!std::filesystem::is_directory(folder / subfolder)) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / subfolder)) {
-    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder).string());
-  }
-  std::ranges::sort(files);
-  return files;
 }
 
 bool has_further_figures(const Experiment& experiment) {

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 
@@ -149,20 +148,6 @@ std::vector<Triangle> triangle_list(const TriangleSoup& soup) {
     out.push_back({soup.indices[i], soup.indices[i + 1], soup.indices[i + 2]});
   return out;
 }
-
-// Union-find over vertices: connected vertices have one root.
-class VertexGroups {
- public:
-  explicit VertexGroups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t root(std::uint32_t vertex) {
-    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-    return vertex;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 Box box_of(std::span<const Triangle> triangles, std::span<const glm::dvec2> positions) {
   glm::dvec2 lower(largest_coordinate), upper(-largest_coordinate);

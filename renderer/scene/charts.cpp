@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -44,21 +43,6 @@ Key key_of(const Vertex& v, const std::array<bool, 2>& sets) {
   return {bits(v.position.x), bits(v.position.y), bits(v.position.z), bits(uv0.x),
           bits(uv0.y),        bits(uv1.x),        bits(uv1.y)};
 }
-
-class Forest {
- public:
-  explicit Forest(std::size_t size) : parents_(size) { std::iota(parents_.begin(), parents_.end(), 0U); }
-
-  std::uint32_t root(std::uint32_t node) {
-    while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];  // every second one is skipped
-    return node;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -342,18 +326,18 @@ void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
 
 Charts charts_of(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices, const Material& material) {
   const std::array<bool, 2> sets = sets_read_by(material);
-  Forest forest(vertices.size());
+  VertexGroups groups(vertices.size());
   std::unordered_map<Key, std::uint32_t, KeyHash> seen;
   for (std::uint32_t i = 0; i < vertices.size(); ++i)
-    forest.join(i, seen.try_emplace(key_of(vertices[i], sets), i).first->second);
+    groups.join(i, seen.try_emplace(key_of(vertices[i], sets), i).first->second);
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    forest.join(indices[i], indices[i + 1]);
-    forest.join(indices[i], indices[i + 2]);
+    groups.join(indices[i], indices[i + 1]);
+    groups.join(indices[i], indices[i + 2]);
   }
   Charts charts;
   std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // of roots, in the order of the first vertex
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    const auto [number, is_new] = numbers.try_emplace(forest.root(i), charts.count);
+    const auto [number, is_new] = numbers.try_emplace(groups.root(i), charts.count);
     charts.count += is_new ? 1 : 0;
     charts.of_vertex.push_back(number->second);
   }

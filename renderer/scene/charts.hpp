@@ -1,9 +1,11 @@
-// UV islands of a mesh, new texture coordinates that show each point of the surface once, and rectangles on shelves.
+// UV islands of a mesh, new texture coordinates that show each point of the surface once; groups of
+// connected vertices, and rectangles on shelves.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -28,6 +30,22 @@ struct Charts {
 /// 1/1024. Vertices between charts are split and tangents are computed; positions, normals, and the triangles' order
 /// and winding stay. Triangles without area are at (0, 0). Positions must be finite.
 void unwrap(Mesh& mesh);
+
+/// Union-find over vertices: connected vertices have one root.
+class VertexGroups {
+ public:
+  explicit VertexGroups(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0U); }
+
+  [[nodiscard]] std::uint32_t root(std::uint32_t vertex) {
+    while (parents_[vertex] != vertex) vertex = parents_[vertex] = parents_[parents_[vertex]];  // shortens the way
+    return vertex;
+  }
+
+  void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::uint32_t> parents_;
+};
 
 /// Shelves of one width, in any unit. Place the highest rectangles first to waste little.
 template <class Length>

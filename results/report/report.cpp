@@ -107,10 +107,10 @@ void write_report(const Results& results, const std::filesystem::path& folder) {
   write_file_atomically(folder / "index.html", results_page(results));
 }
 
-std::vector<std::string> images_in(const std::filesystem::path& folder) {
+std::vector<std::string> files_below(const std::filesystem::path& folder, const std::string& subfolder) {
   std::vector<std::string> files;
-  if (!std::filesystem::is_directory(folder / pictures)) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / pictures)) {
+  if (!std::filesystem::is_directory(folder / subfolder)) return files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / subfolder)) {
     if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder).generic_string());
   }
   std::ranges::sort(files);

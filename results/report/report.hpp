@@ -68,8 +68,8 @@ struct ListedReference {
 /// or it does not list that image as a reference.
 [[nodiscard]] std::optional<ListedReference> listed_reference(const std::filesystem::path& reference);
 
-/// The files below images/ in an output folder, as paths from it, sorted.
-[[nodiscard]] std::vector<std::string> images_in(const std::filesystem::path& folder);
+/// The files below a subfolder of an output folder, as paths from the output folder, sorted.
+[[nodiscard]] std::vector<std::string> files_below(const std::filesystem::path& folder, const std::string& subfolder);
 
 /// One member.
 struct MatrixMember {

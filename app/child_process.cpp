@@ -34,6 +34,7 @@ namespace fs = std::filesystem;
 std::vector<char*> environment_with(std::vector<std::string>& replaced) {
   const auto name_of = [](std::string_view variable) { return variable.substr(0, variable.find('=')); };
   std::vector<char*> variables;
+  variables.reserve(replaced.size());
   for (std::string& own : replaced) variables.push_back(own.data());
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const bool is_replaced =

@@ -184,6 +184,7 @@ class Parser {
     at_ = start;
     if (is_known) fail(fmt::format("`{:.80}` is not a value, or is the second one", text), "write each selector once");
     std::vector<std::string> known;
+    known.reserve(selectors.size());
     for (const Selector selector : selectors) known.emplace_back(selector_name(selector));
     fail(fmt::format("`{:.80}` selects nothing of {}", text, measure.function->name), suggestion(key, known));
   }

@@ -76,7 +76,7 @@ std::vector<std::string> figure_content(const Experiment& experiment) {
   }
   for (const NamedQuantity& quantity : experiment.quantities) {
     content.push_back(fmt::format("{} {} {}", quantity.name, quantity.quantity, quantity.material));
-    for (const auto& [name, value] : quantity.parameters) content.push_back(name + "=" + value);
+    for (const auto& [name, value] : quantity.parameters) content.push_back(fmt::format("{}={}", name, value));
   }
   return content;
 }

@@ -185,7 +185,7 @@ bool is_whole(const QuickModel& model) {
 QuickModel read_quick_model(const std::filesystem::path& file) {
   const auto json = nlohmann::ordered_json::parse(std::ifstream(file), nullptr, false);
   try {
-    QuickModel model = from_json_value<QuickModel>(json);
+    auto model = from_json_value<QuickModel>(json);
     if (json.at("schema") == "footprint-quick-model/1" && is_whole(model)) return model;
   } catch (const nlohmann::json::exception&) {  // as of a model that is not whole
   }

@@ -1,11 +1,13 @@
 // The answer of `recommend --quick`: errors that a model predicts from each map's statistics, without drawing a frame.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "renderer/core/options.hpp"
 #include "renderer/scene/scene.hpp"
 #include "results/report/recommendation.hpp"
 

@@ -92,6 +92,7 @@ std::vector<Tile> noisy(const Supersampled& picture, std::span<const Tile> tiles
   }
   std::ranges::stable_sort(found, std::greater<>(), [](const auto& entry) { return entry.first; });
   std::vector<Tile> out;
+  out.reserve(found.size());
   for (const auto& entry : found) out.push_back(entry.second);
   return out;
 }

@@ -28,7 +28,7 @@ struct RunView {
   double seconds = 0;       ///< time of the model file's animation, on a path that follows it
   std::uint32_t frame = 0;  ///< number on a path of several frames
 
-  friend auto operator<=>(const RunView&, const RunView&) = default;
+  friend auto operator<=>(const RunView&, const RunView&) = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
 /// Whether the views are the frames of an animation: only images, errors and flicker are measured.

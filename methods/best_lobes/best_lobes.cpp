@@ -45,6 +45,7 @@ Settings settings_of(const Options& options) {
 // weights.
 std::vector<Layer> layers_of(const std::vector<FittedLobe>& lobes, std::size_t count, double factor) {
   std::vector<Layer> out;
+  out.reserve(lobes.size());
   for (const FittedLobe& lobe : lobes)
     out.push_back(fournier::layer_of({.weight = lobe.weight,
                                       .axis = best_lobes::direction_from_plane(lobe.mean),

@@ -226,7 +226,7 @@ BinnedFacets bin_facets(const Patch& patch, const FacetSamples& samples) {
   struct Key {
     std::uint32_t paint, cell, sample;
     [[nodiscard]] bool same_bin(const Key& other) const { return paint == other.paint && cell == other.cell; }
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
   };
   std::vector<glm::dvec3> normals;
   std::vector<Key> of_triangle;

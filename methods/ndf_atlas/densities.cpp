@@ -24,6 +24,7 @@ struct AxisTaps {
 
 std::vector<AxisTaps> axis_taps(int size, int level) {
   std::vector<AxisTaps> taps;
+  taps.reserve(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) taps.push_back({i, {1.0}});
   for (int l = 0; l < level && taps.size() > 1; ++l) {
     const auto fine_size = static_cast<int>(taps.size());

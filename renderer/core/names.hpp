@@ -39,6 +39,7 @@ struct Word {
 template <class Value, std::size_t count>
 [[nodiscard]] std::vector<std::string> word_names(const std::array<Word<Value>, count>& words) {
   std::vector<std::string> names;
+  names.reserve(count);
   for (const Word<Value>& word : words) names.emplace_back(word.name);
   return names;
 }

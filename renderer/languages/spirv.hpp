@@ -21,7 +21,8 @@ struct ColorTarget {
   int channels = 4;  ///< 1, 2 or 4
   int bits = 16;     ///< of a channel: 16 or 32
 
-  friend auto operator<=>(const ColorTarget&, const ColorTarget&) = default;
+  friend auto operator<=>(const ColorTarget&,
+                          const ColorTarget&) = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
 /// The stages of a raster program.

@@ -132,7 +132,7 @@ class EffectiveBrdf {
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
 
  private:
-  [[nodiscard]] glm::dvec3 convolved(const SphericalGaussian& lobe, const glm::dvec3& h, const glm::dvec3& wi) const;
+  [[nodiscard]] glm::dvec3 convolved(const SphericalGaussian& fitted, const glm::dvec3& h, const glm::dvec3& wi) const;
   [[nodiscard]] std::vector<glm::dvec3> masses(const glm::dvec3& wi, const glm::dvec3& wo) const;
 
   const MaterialTable& table_;

@@ -21,6 +21,7 @@ constexpr int angle_count = 160, tilt_count = 160, azimuth_count = 96;
 // Equally probable angles from the normal, of slopes of a Gaussian of deviation sigma per axis.
 std::vector<double> tilts_of(double sigma, int count) {
   std::vector<double> tilts;
+  tilts.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) tilts.push_back(std::atan(sigma * std::sqrt(-2.0 * std::log1p(-(i + 0.5) / count))));
   return tilts;
 }

@@ -19,19 +19,12 @@ namespace {
 
 constexpr std::array<float, 4> nothing{};
 
-gl::VertexArray empty_vertex_array() {
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  return gl::VertexArray(name);
-}
-
 gl::Framebuffer framebuffer(GLuint attachments) {
-  GLuint name = 0;
-  gl::api().CreateFramebuffers(1, &name);
+  gl::Framebuffer made = gl::Framebuffer::make();
   std::vector<GLenum> buffers;
   for (GLuint i = 0; i < attachments; ++i) buffers.push_back(GL_COLOR_ATTACHMENT0 + i);
-  gl::api().NamedFramebufferDrawBuffers(name, static_cast<GLsizei>(attachments), buffers.data());
-  return gl::Framebuffer(name);
+  gl::api().NamedFramebufferDrawBuffers(made.name(), static_cast<GLsizei>(attachments), buffers.data());
+  return made;
 }
 
 // A texture of the job by its name; null if the precompute made none.
@@ -39,11 +32,6 @@ const GpuTexture* texture_of(const FrameBuildJob& job, std::string_view name) {
   const auto& baked = job.baked.textures;
   const auto found = std::ranges::find(baked, name, &PrefilteredTexture::name);
   return found == baked.end() ? nullptr : &job.textures[static_cast<std::size_t>(found - baked.begin())];
-}
-
-void bind(GLuint unit, const gl::Texture& texture, GLuint sampler = 0) {
-  gl::api().BindTextureUnit(unit, texture.name());
-  gl::api().BindSampler(unit, sampler);
 }
 
 bool in_camera_space(const FrameBuildJob& job) {
@@ -116,7 +104,6 @@ InstantMap::InstantMap(const ShaderVariant& variant, const Options& options)
       parts_(settings_.part_layers()),
       first_cut_(settings_.adaptive ? 1 : 0),
       guards_(settings_.has_guards(variant.effects)),
-      no_vertices_(empty_vertex_array()),
       joined_(framebuffer(guards_ ? 2 : 1)) {
   const auto pass = [&](std::string_view file, bool guard, bool camera, std::string_view constants = {}) {
     const ShaderModule module = module_of(xu_vmf_glsl, file, {{"guard", guard}, {"camera", camera}});
@@ -169,7 +156,7 @@ void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& progr
   constexpr std::array inputs{normals_name, variances_name, table_name, colours_name};
   for (GLuint unit = 0; unit < inputs.size(); ++unit) {
     if (const GpuTexture* input = texture_of(job, inputs.at(unit)))
-      bind(unit, *input->texture, samplers_.sampler(input->coordinates, SamplerState::nearest));
+      gl::bind_texture(unit, *input->texture, samplers_.sampler(input->coordinates, SamplerState::nearest));
   }
   gl::api().UseProgram(program.name());
   if (!camera) {
@@ -193,7 +180,6 @@ void InstantMap::join(const FrameBuildJob& job) const {
   prepare_join(job, program, camera);
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, joined_.name());
   gl::api().Viewport(0, 0, map.width(), map.height());
-  gl::api().BindVertexArray(camera ? job.vertex_array : no_vertices_.name());
   const int layers = declared(job, whole_name).layers;
   for (int layer = 0; layer < layers; ++layer) {
     gl::api().NamedFramebufferTextureLayer(joined_.name(), GL_COLOR_ATTACHMENT0, map.name(), 0, layer);
@@ -206,9 +192,10 @@ void InstantMap::join(const FrameBuildJob& job) const {
     for (GLint i = 0; camera && i < (guards_ ? 2 : 1); ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
     draw_recorded(job.record, program, 0, [&] {  // its loops have constant rounds and read nothing
       if (camera) {
+        gl::api().BindVertexArray(job.vertex_array);
         gl::api().DrawElements(GL_TRIANGLES, job.batch.index_count, GL_UNSIGNED_INT, nullptr);
       } else {
-        gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+        triangle_.draw();
       }
     });
   }
@@ -229,13 +216,13 @@ void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std
   const int inputs = from == whole_name ? 1 : 2;
   for (int own = 0; own < own_lobes; ++own) {
     if (first_cut_ > 0) {  // the hemisphere itself
-      bind(0, *texture_of(job, from)->texture);
+      gl::bind_texture(0, *texture_of(job, from)->texture);
       gl::api().UseProgram(whole_.coarsen.name());
       gl::api().Uniform1i(whole_.coarsen.uniform("first_layer"), own);
       draw_into(job, whole_, {whole_.coarsen, lookups, parts, size, own * parts_});
     }
-    bind(0, *texture_of(job, whole_name)->texture);
-    bind(1, *texture_of(job, from)->texture);
+    gl::bind_texture(0, *texture_of(job, whole_name)->texture);
+    gl::bind_texture(1, *texture_of(job, from)->texture);
     gl::api().UseProgram(program.name());
     gl::api().Uniform1i(program.uniform("source"), own);
     for (int first = first_cut_; first < parts_; first += static_cast<int>(split_stage_.layers)) {
@@ -252,8 +239,7 @@ void InstantMap::draw_into(const FrameBuildJob& job, const Stage& stage, const L
   }
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, stage.framebuffer.name());
   gl::api().Viewport(0, 0, draw.size.x, draw.size.y);
-  gl::api().BindVertexArray(no_vertices_.name());
-  draw_recorded(job.record, draw.program, draw.lookups, [] { gl::api().DrawArrays(GL_TRIANGLES, 0, 3); });
+  draw_recorded(job.record, draw.program, draw.lookups, [&] { triangle_.draw(); });
 }
 
 // Fills the coarser levels of a texture, if the job has it.
@@ -263,7 +249,7 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
   const bool of_parts = name == parts_name || name == parts_guard_name;
   const int levels = static_cast<int>(declared(job, name).levels.size());
   const int layers = declared(job, name).layers;
-  bind(0, *built->texture);
+  gl::bind_texture(0, *built->texture);
   for (int level = 1; level < levels; ++level) {
     show_one_level(*built->texture, level - 1);
     const double taps = averaging_lookups(*built->texture, level - 1);

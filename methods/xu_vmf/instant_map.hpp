@@ -105,7 +105,7 @@ class InstantMap final : public FrameBuild {
   int parts_;      // layers for each lobe of the facets
   int first_cut_;  // the first of them that is a part of the hemisphere
   bool guards_;
-  gl::VertexArray no_vertices_;
+  gl::ScreenTriangle triangle_;
   gl::Framebuffer joined_;
   gl::Program join_flat_;
   std::optional<gl::Program> join_surface_, split_, split_guard_;

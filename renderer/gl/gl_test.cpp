@@ -73,14 +73,8 @@ std::vector<float> draw_waves() {
   constexpr std::array<GLenum, 1> formats = {GL_RGBA32F};
   const RenderTarget target(waves_side, waves_side, formats, false);
   const Program program("waves", triangle_shader, waves_shader);
-  GLuint name = 0;
-  api().CreateVertexArrays(1, &name);
-  const VertexArray vertex_array(name);
-  api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  api().Viewport(0, 0, waves_side, waves_side);
   api().UseProgram(program.name());
-  api().BindVertexArray(vertex_array.name());
-  api().DrawArrays(GL_TRIANGLES, 0, 3);
+  ScreenTriangle().draw_into(target, waves_side, waves_side);
   return read(target);
 }
 

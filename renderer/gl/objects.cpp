@@ -61,9 +61,8 @@ std::string_view completeness_name(GLenum status) {
 }
 
 Sampler make_sampler(GLint magnified, GLint minified, GLenum wrap_s, GLenum wrap_t) {
-  GLuint name = 0;
-  api().CreateSamplers(1, &name);
-  Sampler sampler(name);
+  Sampler sampler = Sampler::make();
+  const GLuint name = sampler.name();
   api().SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, magnified);
   api().SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, minified);
   api().SamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap_s));
@@ -72,29 +71,6 @@ Sampler make_sampler(GLint magnified, GLint minified, GLenum wrap_s, GLenum wrap
 }
 
 }  // namespace
-
-// A context takes its objects with it, so a name that outlives every context is gone already.
-void delete_buffer(GLuint name) {
-  if (has_current_context()) api().DeleteBuffers(1, &name);
-}
-void delete_vertex_array(GLuint name) {
-  if (has_current_context()) api().DeleteVertexArrays(1, &name);
-}
-void delete_texture(GLuint name) {
-  if (has_current_context()) api().DeleteTextures(1, &name);
-}
-void delete_sampler(GLuint name) {
-  if (has_current_context()) api().DeleteSamplers(1, &name);
-}
-void delete_framebuffer(GLuint name) {
-  if (has_current_context()) api().DeleteFramebuffers(1, &name);
-}
-void delete_program(GLuint name) {
-  if (has_current_context()) api().DeleteProgram(name);
-}
-void delete_query(GLuint name) {
-  if (has_current_context()) api().DeleteQueries(1, &name);
-}
 
 Sampler trilinear_sampler(GLenum wrap_s, GLenum wrap_t, int probes) {
   Sampler sampler = make_sampler(GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, wrap_s, wrap_t);
@@ -116,15 +92,12 @@ Sampler comparing_sampler() {
 }
 
 Buffer::Buffer(std::span<const std::byte> bytes, Content use)
-    : writable_bytes_(use == Content::changing ? bytes.size() : 0) {
+    : handle_(BufferName::make()), writable_bytes_(use == Content::changing ? bytes.size() : 0) {
   static constexpr std::array<std::byte, 16> zeros{};
   const std::span<const std::byte> content = bytes.empty() ? std::span<const std::byte>(zeros) : bytes;
-  GLuint name = 0;
-  api().CreateBuffers(1, &name);
-  handle_ = Handle<delete_buffer>(name);
   const GLbitfield flags = use == Content::changing ? GL_DYNAMIC_STORAGE_BIT : 0;
-  const GLenum error =
-      error_of([&] { api().NamedBufferStorage(name, static_cast<GLsizeiptr>(content.size()), content.data(), flags); });
+  const GLenum error = error_of(
+      [&] { api().NamedBufferStorage(name(), static_cast<GLsizeiptr>(content.size()), content.data(), flags); });
   if (error != GL_NO_ERROR) throw_no_memory("buffer", fmt::format("{} bytes", content.size()), error, no_memory_hint);
 }
 
@@ -148,14 +121,12 @@ Texture::Texture(GLenum internal_format, int width, int height, int levels, int 
     throw Error(ErrorKind::machine, "texture", fmt::format("{}: an array has at most {} layers", what, limit),
                 "give the method fewer lobes");
   }
-  GLuint name = 0;
-  api().CreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
-  handle_ = Handle<delete_texture>(name);
+  handle_ = TextureName::make(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D);
   const GLenum error = error_of([&] {
     if (layers > 0) {
-      api().TextureStorage3D(name, levels, internal_format, width, height, layers);
+      api().TextureStorage3D(name(), levels, internal_format, width, height, layers);
     } else {
-      api().TextureStorage2D(name, levels, internal_format, width, height);
+      api().TextureStorage2D(name(), levels, internal_format, width, height);
     }
   });
   if (error != GL_NO_ERROR) throw_no_memory("texture", what, error, no_texture_hint);
@@ -179,9 +150,8 @@ void Texture::upload_blocks(int level, int width, int height, GLenum internal_fo
 RenderTarget::RenderTarget(int width, int height, std::span<const GLenum> color_formats, bool depth)
     : width_(width), height_(height) {
   if (color_formats.size() > max_attachments) throw std::logic_error("a render target has at most 5 attachments");
-  GLuint name = 0;
-  api().CreateFramebuffers(1, &name);
-  framebuffer_ = Framebuffer(name);
+  framebuffer_ = Framebuffer::make();
+  const GLuint name = framebuffer();
   std::array<GLenum, max_attachments> draw_buffers{};
   for (std::size_t i = 0; i < color_formats.size(); ++i) {
     colors_[i] = Texture(color_formats[i], width, height);
@@ -215,11 +185,26 @@ void RenderTarget::read(std::size_t attachment, int channels, std::span<float> o
   api().BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
+void ScreenTriangle::draw() const {
+  api().BindVertexArray(no_vertices_.name());
+  api().DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void ScreenTriangle::draw_into(const RenderTarget& target, int width, int height) const {
+  api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  api().Viewport(0, 0, width, height);
+  api().Disable(GL_DEPTH_TEST);
+  api().Disable(GL_CULL_FACE);
+  draw();
+}
+
+void bind_texture(GLuint unit, const Texture& texture, GLuint sampler) {
+  api().BindTextureUnit(unit, texture.name());
+  api().BindSampler(unit, sampler);
+}
+
 FrameTimer::FrameTimer(const ContextInfo& info) {
-  if (info.software) return;
-  GLuint name = 0;
-  api().CreateQueries(GL_TIME_ELAPSED, 1, &name);
-  query_ = Query(name);
+  if (!info.software) query_ = Query::make(GL_TIME_ELAPSED);
 }
 
 void FrameTimer::begin() {

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "renderer/gl/context.hpp"
@@ -17,12 +18,24 @@
 
 namespace footprint::gl {
 
-/// Owns a GL name, which `Deleter(GLuint)` deletes. Movable, not copyable; 0 owns nothing.
-template <void (*Deleter)(GLuint)>
+/// Owns a GL name. Movable, not copyable; 0 owns nothing.
+/// Create, Delete: members of Functions, for one object each or for several.
+template <auto Create, auto Delete>
 class Handle {
  public:
   Handle() = default;
-  explicit Handle(GLuint name) : name_(name) {}
+  /// A new object.
+  /// kind: the first argument of Create, such as a texture's target, if it has one.
+  template <class... Kind>
+  [[nodiscard]] static Handle make(Kind... kind) {
+    Handle made;
+    if constexpr (std::is_invocable_r_v<GLuint, decltype(std::declval<Functions>().*Create), Kind...>) {
+      made.name_ = (api().*Create)(kind...);
+    } else {
+      (api().*Create)(kind..., 1, &made.name_);
+    }
+    return made;
+  }
   Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
   Handle& operator=(Handle&& other) noexcept {
     std::swap(name_, other.name_);
@@ -31,7 +44,13 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
-    if (name_ != 0) Deleter(name_);
+    // A context takes its objects with it, so a name that outlives every context is gone already.
+    if (name_ == 0 || !has_current_context()) return;
+    if constexpr (std::is_invocable_v<decltype(std::declval<Functions>().*Delete), GLuint>) {
+      (api().*Delete)(name_);
+    } else {
+      (api().*Delete)(1, &name_);
+    }
   }
   [[nodiscard]] GLuint name() const { return name_; }
   [[nodiscard]] explicit operator bool() const { return name_ != 0; }
@@ -40,18 +59,13 @@ class Handle {
   GLuint name_ = 0;
 };
 
-void delete_buffer(GLuint name);
-void delete_vertex_array(GLuint name);
-void delete_texture(GLuint name);
-void delete_sampler(GLuint name);
-void delete_framebuffer(GLuint name);
-void delete_program(GLuint name);
-void delete_query(GLuint name);
-
-using VertexArray = Handle<delete_vertex_array>;
-using Sampler = Handle<delete_sampler>;
-using Query = Handle<delete_query>;
-using Framebuffer = Handle<delete_framebuffer>;
+using VertexArray = Handle<&Functions::CreateVertexArrays, &Functions::DeleteVertexArrays>;
+using Sampler = Handle<&Functions::CreateSamplers, &Functions::DeleteSamplers>;
+using Query = Handle<&Functions::CreateQueries, &Functions::DeleteQueries>;
+using Framebuffer = Handle<&Functions::CreateFramebuffers, &Functions::DeleteFramebuffers>;
+using BufferName = Handle<&Functions::CreateBuffers, &Functions::DeleteBuffers>;
+using TextureName = Handle<&Functions::CreateTextures, &Functions::DeleteTextures>;
+using ProgramName = Handle<&Functions::CreateProgram, &Functions::DeleteProgram>;
 
 /// Linear magnification, linear minification within and between mip levels.
 /// wrap_s, wrap_t: GL_REPEAT, GL_CLAMP_TO_EDGE, ...
@@ -80,7 +94,7 @@ class Buffer {
   [[nodiscard]] GLuint name() const { return handle_.name(); }
 
  private:
-  Handle<delete_buffer> handle_;
+  BufferName handle_;
   std::size_t writable_bytes_ = 0;
 };
 
@@ -102,7 +116,7 @@ class Texture {
   [[nodiscard]] int height() const { return height_; }
 
  private:
-  Handle<delete_texture> handle_;
+  TextureName handle_;
   int width_ = 0, height_ = 0, layers_ = 0;
 };
 
@@ -129,6 +143,21 @@ class RenderTarget {
   int width_ = 0, height_ = 0;
 };
 
+/// Draws three vertices that cover the viewport.
+class ScreenTriangle {
+ public:
+  /// program: the current one, whose vertex stage needs no attributes.
+  void draw() const;
+  /// Into the first width x height texels of `target`, without depth test and culling.
+  void draw_into(const RenderTarget& target, int width, int height) const;
+
+ private:
+  VertexArray no_vertices_ = VertexArray::make();
+};
+
+/// sampler: 0 for the texture's own.
+void bind_texture(GLuint unit, const Texture& texture, GLuint sampler = 0);
+
 /// The smallest line number that a compiler's log names; 0: it names none.
 [[nodiscard]] int smallest_line_in(std::string_view log);
 
@@ -154,7 +183,7 @@ class Program {
   [[nodiscard]] GLint uniform(std::string_view uniform_name) const;
 
  private:
-  Handle<delete_program> handle_;
+  ProgramName handle_;
   std::map<std::string, Uniform, std::less<>> uniforms_;
 };
 

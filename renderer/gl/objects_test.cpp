@@ -49,22 +49,19 @@ class Objects : public testing::Test {
   Context context_{ContextRequest{.backend = Backend::egl}};
 };
 
-int deletions = 0;
-void count_deletion(GLuint /*name*/) { ++deletions; }
-
-TEST(HandleTest, DeletesEachNameOnce) {
-  using Counted = Handle<count_deletion>;
-  deletions = 0;
+TEST_F(Objects, AHandleDeletesTheNameThatItOwns) {
+  GLuint name = 0;
+  VertexArray owner;
   {
-    Counted first(7);
-    Counted second(std::move(first));
-    EXPECT_EQ(second.name(), 7u);
-    Counted third;
-    third = std::move(second);
-    EXPECT_EQ(third.name(), 7u);
-    EXPECT_EQ(deletions, 0);
+    VertexArray first = VertexArray::make();
+    name = first.name();
+    VertexArray second(std::move(first));
+    owner = std::move(second);
   }
-  EXPECT_EQ(deletions, 1);
+  EXPECT_EQ(owner.name(), name);
+  EXPECT_TRUE(api().IsVertexArray(name)) << "a handle that was moved from deleted it";
+  owner = {};
+  EXPECT_FALSE(api().IsVertexArray(name));
 }
 
 TEST_F(Objects, AMovedFromBufferLeavesTheNameAlone) {
@@ -174,10 +171,7 @@ TEST_F(Objects, ATargetReadsEachAttachmentWithAnyNumberOfChannels) {
 TEST_F(Objects, TheDepthBufferHidesWhatIsBehind) {
   const RenderTarget target(2, 2, rgba32f, true);
   const Program program("plain", deep_triangle_shader, plain_shader);
-  GLuint name = 0;
-  api().CreateVertexArrays(1, &name);
-  const VertexArray vertex_array(name);
-  api().BindVertexArray(vertex_array.name());
+  const ScreenTriangle triangle;
   api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   api().Viewport(0, 0, 2, 2);
   api().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -187,7 +181,7 @@ TEST_F(Objects, TheDepthBufferHidesWhatIsBehind) {
   for (const float step : {0.0f, 1.0f}) {
     api().Uniform1f(program.uniform("depth"), step * 0x1p-25f);
     api().Uniform4f(program.uniform("wanted"), 1.0f + step, 0.0f, 0.0f, 1.0f);
-    api().DrawArrays(GL_TRIANGLES, 0, 3);
+    triangle.draw();
   }
   std::vector<float> red(4);
   target.read(0, 1, red);

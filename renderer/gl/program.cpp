@@ -17,10 +17,7 @@
 namespace footprint::gl {
 namespace {
 
-void delete_shader(GLuint name) {
-  if (has_current_context()) api().DeleteShader(name);
-}
-using Shader = Handle<delete_shader>;
+using Shader = Handle<&Functions::CreateShader, &Functions::DeleteShader>;
 
 struct Stage {
   GLenum type;
@@ -128,7 +125,7 @@ std::string info_log(GLuint name, GLint length, const GetLog& get_log) {
 }
 
 Shader compile(const std::string& program, const Stage& stage) {
-  Shader shader(api().CreateShader(stage.type));
+  Shader shader = Shader::make(stage.type);
   const GLchar* text = stage.source.data();
   const auto length = static_cast<GLint>(stage.source.size());
   api().ShaderSource(shader.name(), 1, &text, &length);
@@ -141,8 +138,8 @@ Shader compile(const std::string& program, const Stage& stage) {
   throw_broken(program, fmt::format("{} does not compile", stage_name(stage.type)), log_with_lines(log, stage.source));
 }
 
-Handle<delete_program> link(const std::string& name, std::initializer_list<Stage> stages) {
-  Handle<delete_program> program(api().CreateProgram());
+ProgramName link(const std::string& name, std::initializer_list<Stage> stages) {
+  ProgramName program = ProgramName::make();
   for (const Stage& stage : stages) {
     const Shader shader = compile(name, stage);
     // The program keeps attached shaders alive after they are deleted here.

@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "renderer/core/bytes.hpp"
@@ -27,7 +28,7 @@ namespace {
 
 using IOProxy = OIIO::Filesystem::IOProxy;
 
-constexpr int default_max_side = 16384;  // of read_image
+constexpr int largest_side = 16384;
 
 struct Signature {
   std::size_t offset;
@@ -107,7 +108,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(IOProxy& source, const std::string&
   return input;
 }
 
-void check_header(const OIIO::ImageSpec& spec, const std::string& name, int max_side) {
+void check_header(const OIIO::ImageSpec& spec, const std::string& name, int max_side, int most_channels) {
   if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep) {
     throw unreadable(name, fmt::format("is not a flat image ({} x {} x {})", spec.width, spec.height, spec.depth));
   }
@@ -115,9 +116,9 @@ void check_header(const OIIO::ImageSpec& spec, const std::string& name, int max_
     throw Error(ErrorKind::usage, name, fmt::format("declares {} x {} texels", spec.width, spec.height),
                 fmt::format("at most {0} x {0} are taken; scale it down", max_side));
   }
-  if (spec.nchannels < 1 || spec.nchannels > 4) {
+  if (spec.nchannels < 1 || spec.nchannels > most_channels) {
     throw Error(ErrorKind::usage, name, fmt::format("has {} channels", spec.nchannels),
-                "give one with 1 to 4 channels");
+                fmt::format("give one with 1 to {} channels", most_channels));
   }
 }
 
@@ -136,18 +137,33 @@ void decode_srgb(Image& image, int alpha_channel) {
   }
 }
 
-Image decode(IOProxy& source, const std::string& name, Transfer transfer, int max_side) {
-  const std::unique_ptr<OIIO::ImageInput> input = open_image(source, name);
-  const OIIO::ImageSpec& spec = input->spec();
-  check_header(spec, name, max_side);
+std::unique_ptr<IOProxy> opened(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  std::error_code ignored;  // opening the file will fail
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status)) throw Error(ErrorKind::usage, name, "no such file", "check the path");
+  if (!std::filesystem::is_regular_file(status)) throw unreadable(name, "is not a file");
+  auto source = std::make_unique<OIIO::Filesystem::IOFile>(name, IOProxy::Read);
+  if (!source->opened()) throw Error(ErrorKind::usage, name, "cannot be opened", "check its permissions");
+  return source;
+}
+
+Image decode_level(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int level, const std::string& name) {
   require_memory(frame_bytes(spec.width, spec.height, spec.nchannels * sizeof(float)), name,
                  "scale the image down, or free memory");
   Image image(spec.width, spec.height, spec.nchannels);
-  const bool complete = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data());
+  const bool complete = input.read_image(0, level, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data());
   // The JPEG reader fills missing data, returns success and leaves a message.
-  if (!complete || input->has_error()) {
-    throw unreadable(name, fmt::format("is truncated or damaged: {}", reason_of_failure(input.get())));
-  }
+  if (!complete || input.has_error())
+    throw unreadable(name, fmt::format("is truncated or damaged: {}", reason_of_failure(&input)));
+  return image;
+}
+
+Image decode(IOProxy& source, const std::string& name, Transfer transfer, int max_side) {
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(source, name);
+  const OIIO::ImageSpec& spec = input->spec();
+  check_header(spec, name, max_side, 4);
+  Image image = decode_level(*input, spec, 0, name);
   if (transfer == Transfer::srgb && !spec.format.is_floating_point()) decode_srgb(image, spec.alpha_channel);
   return image;
 }
@@ -155,7 +171,7 @@ Image decode(IOProxy& source, const std::string& name, Transfer transfer, int ma
 std::uint64_t texels_of_header(IOProxy& source) {
   try {
     const std::unique_ptr<OIIO::ImageInput> input = open_image(source, "");
-    check_header(input->spec(), "", default_max_side);
+    check_header(input->spec(), "", largest_side, 4);
     return static_cast<std::uint64_t>(input->spec().width) * static_cast<std::uint64_t>(input->spec().height);
   } catch (const Error&) {
     return 0;  // reading it reports the reason
@@ -176,7 +192,6 @@ OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& im
 float clamped(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }  // NaN as 0
 
 constexpr int exr_tile = 64;  // as maketx makes it
-constexpr int largest_chain_side = 16384;
 
 void require_chain(const ExrChain& chain) {
   const auto& levels = chain.levels;
@@ -193,15 +208,19 @@ void require_chain(const ExrChain& chain) {
     throw std::logic_error("every channel has a name");
 }
 
-OIIO::ImageSpec spec_of(const ExrChain& chain, std::size_t level, ExrTexel texel) {
-  const Image& image = chain.levels[level];
-  OIIO::ImageSpec spec(image.width, image.height, image.channels,
+// Of linear values, without the date: OpenImageIO stamps the hour, so equal images would be different files.
+void describe_exr(OIIO::ImageSpec& spec) {
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("DateTime", "");
+}
+
+OIIO::ImageSpec spec_of(const ExrChain& chain, const Image& level, ExrTexel texel) {
+  OIIO::ImageSpec spec(level.width, level.height, level.channels,
                        texel == ExrTexel::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.channelnames = chain.channels;
   spec.alpha_channel = -1;  // no channel is coverage
-  spec.attribute("compression", "zip");
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("DateTime", "");  // else OpenImageIO stamps the hour, and equal maps are different files
+  describe_exr(spec);
   if (chain.levels.size() > 1) {
     spec.tile_width = spec.tile_height = exr_tile;
     spec.attribute("textureformat", "Plain Texture");  // which makes OpenImageIO write levels
@@ -210,56 +229,23 @@ OIIO::ImageSpec spec_of(const ExrChain& chain, std::size_t level, ExrTexel texel
   return spec;
 }
 
-bool write_level(OIIO::ImageOutput& output, const std::string& name, const ExrChain& chain, std::size_t level,
-                 ExrTexel texel) {
-  const auto mode = level == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendMIPLevel;
-  return output.open(name, spec_of(chain, level, texel), mode) &&
-         output.write_image(OIIO::TypeDesc::FLOAT, chain.levels[level].texels.data());
-}
+struct EncodedLevel {
+  OIIO::ImageSpec spec;
+  const void* texels;
+};
 
-std::vector<unsigned char> encoded_chain(const std::string& name, const ExrChain& chain, ExrTexel texel) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput target(bytes);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr", &target);
-  bool whole = output != nullptr;
-  for (std::size_t level = 0; whole && level < chain.levels.size(); ++level)
-    whole = write_level(*output, name, chain, level, texel);
-  if (whole && output->close()) return bytes;
-  const std::string queued = OIIO::geterror();
-  const std::string reason = output ? output->geterror() : queued;
-  throw Error(ErrorKind::machine, name,
-              fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
-}
-
-Error damaged(const std::string& name, std::string reason) {
-  if (reason.empty()) reason = OIIO::geterror();
-  return {ErrorKind::usage, name, fmt::format("cannot be read: {}", reason.substr(0, reason.find('\n'))),
-          "give a whole EXR"};
-}
-
-void require_readable(const OIIO::ImageSpec& spec, const std::string& name, int most_channels) {
-  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep) throw damaged(name, "it is not a flat image");
-  if (spec.width > largest_chain_side || spec.height > largest_chain_side) {
-    throw Error(ErrorKind::usage, name, fmt::format("declares {} x {} texels", spec.width, spec.height),
-                fmt::format("at most {0} x {0} are taken; scale it down", largest_chain_side));
-  }
-  if (spec.nchannels > most_channels) {
-    throw Error(ErrorKind::usage, name, fmt::format("has {} channels", spec.nchannels),
-                fmt::format("give one with at most {}", most_channels));
-  }
-  const auto texels = static_cast<std::uint64_t>(spec.nchannels) * sizeof(float) * 2;  // with its chain
-  require_memory(frame_bytes(static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height), texels),
-                 name, "scale the map down, or free memory");
-}
-
-}  // namespace
-
-std::vector<unsigned char> encoded_image(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
-                                         const OIIO::TypeDesc& type, const void* texels) {
+// The bytes of a file of all levels, whose texels are of `type`.
+std::vector<unsigned char> encoded(const std::string& name, const char* format, const OIIO::TypeDesc& type,
+                                   std::span<const EncodedLevel> levels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput target(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &target);
-  if (output && output->open(name, spec) && output->write_image(type, texels) && output->close()) return bytes;
+  auto mode = OIIO::ImageOutput::Create;
+  const auto written = [&](const EncodedLevel& level) {
+    return output->open(name, level.spec, std::exchange(mode, OIIO::ImageOutput::AppendMIPLevel)) &&
+           output->write_image(type, level.texels);
+  };
+  if (output && std::ranges::all_of(levels, written) && output->close()) return bytes;
   const std::string queued = OIIO::geterror();
   const std::string reason = first_line(output ? output->geterror() : queued);
   // OpenImageIO reports nothing if it is out of memory.
@@ -267,17 +253,16 @@ std::vector<unsigned char> encoded_image(const std::string& name, const char* fo
               fmt::format("cannot be encoded: {}", reason.empty() ? taken_memory_text() : reason));
 }
 
+}  // namespace
+
+std::vector<unsigned char> encoded_image(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
+                                         const OIIO::TypeDesc& type, const void* texels) {
+  const std::array level{EncodedLevel{spec, texels}};
+  return encoded(name, format, type, level);
+}
+
 Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side) {
-  const std::string name = file.string();
-  std::error_code ignored;  // opening the file will fail
-  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status)) {
-    throw Error(ErrorKind::usage, name, "no such file", "check the path");
-  }
-  if (!std::filesystem::is_regular_file(status)) throw unreadable(name, "is not a file");
-  OIIO::Filesystem::IOFile source(name, IOProxy::Read);
-  if (!source.opened()) throw Error(ErrorKind::usage, name, "cannot be opened", "check its permissions");
-  return decode(source, name, transfer, max_side);
+  return decode(*opened(file), file.string(), transfer, max_side);
 }
 
 std::uint64_t texels_in_header(const std::filesystem::path& file) {
@@ -313,9 +298,7 @@ Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, T
 void write_exr(const std::filesystem::path& file, const Image& image) {
   OIIO::ImageSpec spec = writable_spec(file, image, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
-  spec.attribute("compression", "zip");
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("DateTime", "");  // else OpenImageIO stamps the hour, and equal images are different files
+  describe_exr(spec);
   write_file_atomically(file,
                         encoded_image(file.string(), "openexr", spec, OIIO::TypeDesc::FLOAT, image.texels.data()));
 }
@@ -344,26 +327,21 @@ Image to_display(const Image& radiance, float exposure) {
 
 void write_exr_chain(const std::filesystem::path& file, const ExrChain& chain, ExrTexel texel) {
   require_chain(chain);
-  write_file_atomically(file, encoded_chain(file.string(), chain, texel));
+  std::vector<EncodedLevel> levels;
+  for (const Image& level : chain.levels) levels.push_back({spec_of(chain, level, texel), level.texels.data()});
+  write_file_atomically(file, encoded(file.string(), "openexr", OIIO::TypeDesc::FLOAT, levels));
 }
 
 ExrChain read_exr_chain(const std::filesystem::path& file, int most_channels) {
   const std::string name = file.string();
-  if (!std::filesystem::exists(file)) throw Error(ErrorKind::usage, name, "no such file", "check the path");
+  const std::unique_ptr<IOProxy> source = opened(file);
   if (!is_exr(file)) throw Error(ErrorKind::usage, name, "is not an EXR", "give a whole EXR");
-  OIIO::Filesystem::IOFile source(name, OIIO::Filesystem::IOProxy::Read);
-  OIIO::Filesystem::IOProxy* proxy = &source;
-  OIIO::ImageSpec config;
-  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<void*>(&proxy));
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr", false, &config, proxy);
-  OIIO::ImageSpec spec;
-  if (!input || !input->open(name, spec, config)) throw damaged(name, input ? input->geterror() : std::string());
+  const std::unique_ptr<OIIO::ImageInput> input = open_image(*source, name);
+  OIIO::ImageSpec spec = input->spec();
   ExrChain chain{.levels = {}, .channels = spec.channelnames};
   for (int level = 0; input->seek_subimage(0, level, spec); ++level) {
-    require_readable(spec, name, most_channels);
-    Image& image = chain.levels.emplace_back(spec.width, spec.height, spec.nchannels);
-    if (!input->read_image(0, level, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data()))
-      throw damaged(name, input->geterror());
+    check_header(spec, name, largest_side, most_channels);
+    chain.levels.push_back(decode_level(*input, spec, level, name));
   }
   (void)input->geterror();  // clears the message that no level follows
   return chain;

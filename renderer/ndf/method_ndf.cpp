@@ -84,9 +84,6 @@ MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const Bake
       directions_unit_(static_cast<GLuint>(TextureUnits(scene.effects(), baked.materials.front()).size())),
       edge_(std::min({tile > 0 ? tile : largest_edge, context.max_framebuffer_size, context.max_texture_size})),
       program_(program_of(scene, baked, filter)) {
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  no_vertices_ = gl::VertexArray(name);
   gpu_.build_frame(view_of_facets());
 }
 
@@ -112,18 +109,12 @@ void MethodNdf::set_footprint(const FootprintRect& rect) const {
 
 void MethodNdf::draw(const gl::RenderTarget& target, const gl::Texture& directions) const {
   const GpuBatch& batch = scene_->batches().front();
-  gl::api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  gl::api().Viewport(0, 0, target.width(), target.height());
-  gl::api().Disable(GL_DEPTH_TEST);
-  gl::api().Disable(GL_CULL_FACE);
   gl::api().UseProgram(program_.name());
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
   gpu_.bind(batch, *scene_, sampler_state_);
-  gl::api().BindTextureUnit(directions_unit_, directions.name());
-  gl::api().BindSampler(directions_unit_, 0);
+  gl::bind_texture(directions_unit_, directions);
   gl::api().Uniform1i(program_.uniform("ndf_directions"), static_cast<GLint>(directions_unit_));
-  gl::api().BindVertexArray(no_vertices_.name());
-  gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+  triangle_.draw_into(target, target.width(), target.height());
 }
 
 std::vector<float> MethodNdf::densities(const FootprintRect& rect, std::span<const glm::vec3> directions) const {

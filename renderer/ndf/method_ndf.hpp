@@ -43,7 +43,7 @@ class MethodNdf {
   GLuint directions_unit_;
   int edge_;
   gl::Program program_;
-  gl::VertexArray no_vertices_;
+  gl::ScreenTriangle triangle_;
 };
 
 }  // namespace footprint

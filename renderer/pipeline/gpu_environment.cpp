@@ -74,10 +74,7 @@ GpuAreaCosines::GpuAreaCosines(const BaseBrdf& brdf)
   table_ = upload_texels(table);
 }
 
-void GpuAreaCosines::bind(GLuint unit) const {
-  gl::api().BindTextureUnit(unit, table_.name());
-  gl::api().BindSampler(unit, sampler_.name());
-}
+void GpuAreaCosines::bind(GLuint unit) const { gl::bind_texture(unit, table_, sampler_.name()); }
 
 GpuEnvironment::Part GpuEnvironment::stack_part() const {
   const RadianceStack stack = prefilter_environment(looked_up(), no_progress);
@@ -154,10 +151,8 @@ void GpuEnvironment::prepare(EnvironmentUse use) {
 void GpuEnvironment::bind(const TextureUnits& units, EnvironmentUse use) const {
   const Part& part = parts_.at(static_cast<std::size_t>(use)).value();
   const std::vector<std::string_view> names = environment_textures(use);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    gl::api().BindTextureUnit(units.unit(names[i]), part.textures.at(i).name());
-    gl::api().BindSampler(units.unit(names[i]), part.sampler.name());
-  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    gl::bind_texture(units.unit(names[i]), part.textures.at(i), part.sampler.name());
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::environment, part.block.name());
 }
 
@@ -201,9 +196,6 @@ std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t
   return values;
 }
 
-void GpuVisibility::bind(GLuint unit) const {
-  gl::api().BindTextureUnit(unit, maps_.name());
-  gl::api().BindSampler(unit, sampler_.name());
-}
+void GpuVisibility::bind(GLuint unit) const { gl::bind_texture(unit, maps_, sampler_.name()); }
 
 }  // namespace footprint

@@ -190,9 +190,8 @@ bool same_uv(const TextureCoordinates& a, const TextureCoordinates& b) {
 }
 
 gl::VertexArray vertex_array(const gl::Buffer& vertices, const gl::Buffer& indices, const gl::Buffer* surface) {
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  gl::VertexArray array(name);
+  gl::VertexArray array = gl::VertexArray::make();
+  const GLuint name = array.name();
   gl::api().VertexArrayVertexBuffer(name, 0, vertices.name(), 0, sizeof(Vertex));
   gl::api().VertexArrayElementBuffer(name, indices.name());
   add_attribute(name, 0, 3, offsetof(Vertex, position));

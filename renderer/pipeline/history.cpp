@@ -16,11 +16,6 @@ constexpr std::array<GLenum, 2> history_formats{GL_RGBA32F, GL_R32F};
 // A surface that is this much nearer or farther is another one: of the distance, or of an orthographic image's height.
 constexpr float most_depth_change = 0.05F;
 
-void bind_input(GLuint unit, const gl::Texture& texture) {
-  gl::api().BindTextureUnit(unit, texture.name());
-  gl::api().BindSampler(unit, 0);
-}
-
 // From the clip space of a view to that of an earlier one.
 glm::mat4 to_clip_of(const View& earlier, const View& view) {
   return glm::mat4(clip_matrix(earlier) * glm::inverse(clip_matrix(view)));
@@ -45,11 +40,7 @@ History::History(const glm::ivec2& size, const HistorySettings& settings)
     : settings_(settings),
       blend_("history", screen_vertex_shader(), history_shader(settings.clamp)),
       targets_{gl::RenderTarget(size.x, size.y, history_formats, false),
-               gl::RenderTarget(size.x, size.y, history_formats, false)} {
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  no_vertices_ = gl::VertexArray(name);
-}
+               gl::RenderTarget(size.x, size.y, history_formats, false)} {}
 
 void History::add(const FrameRenderer& frames, const View& view) {
   const gl::RenderTarget* const frame = frames.whole_frame();
@@ -61,10 +52,10 @@ void History::add(const FrameRenderer& frames, const View& view) {
   const gl::RenderTarget& old = newest();
   newest_ = 1 - newest_;
   gl::api().UseProgram(blend_.name());
-  bind_input(0, frame->color(0));
-  bind_input(1, frame->depth());
-  bind_input(2, old.color(0));
-  bind_input(3, old.color(1));
+  gl::bind_texture(0, frame->color(0));
+  gl::bind_texture(1, frame->depth());
+  gl::bind_texture(2, old.color(0));
+  gl::bind_texture(3, old.color(1));
   const View& before = last_ ? *last_ : view;
   gl::api().UniformMatrix4fv(blend_.uniform("to_old_clip"), 1, GL_FALSE, glm::value_ptr(to_clip_of(before, view)));
   gl::api().Uniform1i(blend_.uniform("moves"), before.camera == view.camera ? 0 : 1);
@@ -72,12 +63,7 @@ void History::add(const FrameRenderer& frames, const View& view) {
   gl::api().Uniform1f(blend_.uniform("share"), static_cast<float>(settings_.alpha));
   gl::api().Uniform1f(blend_.uniform("most_depth_change"), depth_limit(view.camera));
   gl::api().Uniform1i(blend_.uniform("perspective"), view.camera.orthographic ? 0 : 1);
-  gl::api().BindFramebuffer(GL_FRAMEBUFFER, newest().framebuffer());
-  gl::api().Viewport(0, 0, view.size.x, view.size.y);
-  gl::api().Disable(GL_DEPTH_TEST);
-  gl::api().Disable(GL_CULL_FACE);
-  gl::api().BindVertexArray(no_vertices_.name());
-  gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+  triangle_.draw_into(newest(), view.size.x, view.size.y);
   last_ = view;
 }
 

@@ -36,7 +36,7 @@ class History {
   gl::Program blend_;
   std::array<gl::RenderTarget, 2> targets_;  // the last history and the one before, each with its frame's depth
   std::size_t newest_ = 0;
-  gl::VertexArray no_vertices_;
+  gl::ScreenTriangle triangle_;
   std::optional<View> last_;  // that was blended in
 };
 

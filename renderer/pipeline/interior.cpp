@@ -71,10 +71,7 @@ glm::vec2 map_size_of(const Material& material) {
 }
 
 void bind_textures(const gl::RenderTarget& target, std::size_t count, GLuint unit) {
-  for (std::size_t i = 0; i < count; ++i) {
-    gl::api().BindTextureUnit(unit + static_cast<GLuint>(i), target.color(i).name());
-    gl::api().BindSampler(unit + static_cast<GLuint>(i), 0);
-  }
+  for (std::size_t i = 0; i < count; ++i) gl::bind_texture(unit + static_cast<GLuint>(i), target.color(i));
 }
 
 // Splits the result into its images.
@@ -99,9 +96,6 @@ InteriorFinder::InteriorFinder(GpuScene& scene, const Scene& values, int tile_ed
       far_corner_(glm::length(glm::max(glm::abs(values.bounds.lower), glm::abs(values.bounds.upper)))),
       geometry_(make_passes(false)) {
   if (scene.shadow_maps() && criteria.shadows) shadows_ = make_passes(true);
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  no_vertices_ = gl::VertexArray(name);
   add_parts(values);
 }
 
@@ -174,9 +168,8 @@ void InteriorFinder::draw(const SamplePasses& passes, const gl::RenderTarget& ta
       if (!has(scene_->effects(), map.effect)) continue;
       const GpuTexture& texture = part.batch->shared_textures.at(i++);
       if (!has(maps, map.effect)) continue;
-      const GLuint unit = passes.units.unit(map.name);
-      gl::api().BindTextureUnit(unit, texture.texture->name());
-      gl::api().BindSampler(unit, scene_->samplers().sampler(texture.coordinates, SamplerState::trilinear));
+      gl::bind_texture(passes.units.unit(map.name), *texture.texture,
+                       scene_->samplers().sampler(texture.coordinates, SamplerState::trilinear));
     }
     gl::api().BindVertexArray(part.vertex_array.name());
     gl::api().DrawElements(GL_TRIANGLES, part.batch->index_count, GL_UNSIGNED_INT, nullptr);
@@ -199,14 +192,9 @@ void InteriorFinder::compare(const SamplePasses& passes, const gl::RenderTarget&
   gl::api().Uniform1i(uniform("by_depth"), criteria_.depth ? 1 : 0);
   bind_textures(drawn, std::min<std::size_t>(textures, first_unit), 0);
   bind_textures(passes.first, textures, first_unit);
-  gl::api().BindFramebuffer(GL_FRAMEBUFFER, result_.framebuffer());
-  gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
-  gl::api().Disable(GL_DEPTH_TEST);
-  gl::api().Disable(GL_CULL_FACE);
   gl::api().Enable(GL_BLEND);
   gl::api().BlendEquation(GL_MIN);
-  gl::api().BindVertexArray(no_vertices_.name());
-  gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+  triangle_.draw_into(result_, tile.size.x, tile.size.y);
   gl::api().BlendEquation(GL_FUNC_ADD);
   gl::api().Disable(GL_BLEND);
 }

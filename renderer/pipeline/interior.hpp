@@ -91,7 +91,7 @@ class InteriorFinder {
   bool orthographic_;
   float far_corner_;  // of the bounds, from the world's origin
   std::vector<Part> parts_;
-  gl::VertexArray no_vertices_;
+  gl::ScreenTriangle triangle_;
   mutable SamplePasses geometry_;
   mutable std::optional<SamplePasses> shadows_;  // if shadows are cast and are a criterion
   mutable gl::RenderTarget result_;

@@ -99,14 +99,12 @@ void draw_recorded(RecordedDraws* record, const gl::Program& program, double loo
   set_texts(recorded, program.name());
   set_textures(recorded, program);
   set_targets(recorded);
-  GLuint name = 0;
-  gl::api().CreateQueries(GL_SAMPLES_PASSED, 1, &name);
-  const gl::Query query(name);
-  gl::api().BeginQuery(GL_SAMPLES_PASSED, name);
+  const gl::Query query = gl::Query::make(GL_SAMPLES_PASSED);
+  gl::api().BeginQuery(GL_SAMPLES_PASSED, query.name());
   draw();
   gl::api().EndQuery(GL_SAMPLES_PASSED);
   GLuint64 pixels = 0;
-  gl::api().GetQueryObjectui64v(name, GL_QUERY_RESULT, &pixels);
+  gl::api().GetQueryObjectui64v(query.name(), GL_QUERY_RESULT, &pixels);
   recorded.pixels = static_cast<double>(pixels);
 }
 

@@ -18,13 +18,13 @@ constexpr const char* two_targets =
     "void main() {\n  coarse = texelFetch(finer, ivec3(0), 0);\n  guard = texelFetch(other, ivec2(0), 0);\n}\n";
 
 gl::Framebuffer framebuffer_of(const gl::Texture& first, const gl::Texture& second) {
-  GLuint name = 0;
-  gl::api().CreateFramebuffers(1, &name);
+  gl::Framebuffer framebuffer = gl::Framebuffer::make();
+  const GLuint name = framebuffer.name();
   gl::api().NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, first.name(), 0);
   gl::api().NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT1, second.name(), 0);
   constexpr std::array<GLenum, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   gl::api().NamedFramebufferDrawBuffers(name, 2, buffers.data());
-  return gl::Framebuffer(name);
+  return framebuffer;
 }
 
 TEST(RecordedDraws, HaveTextsTexturesTargetsAndPixels) {
@@ -32,10 +32,7 @@ TEST(RecordedDraws, HaveTextsTexturesTargetsAndPixels) {
   const gl::Texture finer(GL_RGBA32F, 16, 8, 3, 2), other(GL_R8, 4, 4), coarse(GL_RGBA16F, 8, 8), guard(GL_R32F, 8, 8);
   const gl::Framebuffer framebuffer = framebuffer_of(coarse, guard);
   const gl::Program program("two targets", screen_vertex_shader(), two_targets);
-  GLuint name = 0;
-  gl::api().CreateVertexArrays(1, &name);
-  const gl::VertexArray no_vertices(name);
-  gl::api().BindVertexArray(name);
+  const gl::ScreenTriangle triangle;
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND}) gl::api().Disable(off);
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   gl::api().Viewport(0, 0, 7, 5);
@@ -45,7 +42,7 @@ TEST(RecordedDraws, HaveTextsTexturesTargetsAndPixels) {
   int drawn = 0;
   const auto draw = [&] {
     ++drawn;
-    gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+    triangle.draw();
   };
   RecordedDraws record;
   draw_recorded(&record, program, 2, draw);

@@ -57,8 +57,7 @@ void draw_batch(const GpuBatch& batch, const EffectSet& effects, SamplerCache& s
   // The base colour is the first shared texture; its alpha decides about cut-outs.
   if (has(effects, Effect::alpha_mask) && has(effects, Effect::base_color_variation)) {
     const GpuTexture& base_color = batch.shared_textures.front();
-    gl::api().BindTextureUnit(0, base_color.texture->name());
-    gl::api().BindSampler(0, samplers.sampler(base_color.coordinates, SamplerState::trilinear));
+    gl::bind_texture(0, *base_color.texture, samplers.sampler(base_color.coordinates, SamplerState::trilinear));
   }
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
   gl::api().BindVertexArray(batch.vertex_array.name());
@@ -87,9 +86,8 @@ ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const
 void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batches, SamplerCache& samplers) {
   constexpr float far_plane = 1.0F;
   const gl::Program program("shadow maps", shadow_vertex_shader(effects), shadow_fragment_shader(effects));
-  GLuint name = 0;
-  gl::api().CreateFramebuffers(1, &name);
-  const gl::Framebuffer framebuffer(name);
+  const gl::Framebuffer framebuffer = gl::Framebuffer::make();
+  const GLuint name = framebuffer.name();
   gl::api().NamedFramebufferDrawBuffer(name, GL_NONE);
   gl::api().UseProgram(program.name());
   gl::api().Viewport(0, 0, resolution_, resolution_);
@@ -116,8 +114,7 @@ void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batche
 
 void ShadowMaps::bind(GLuint unit) const {
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::shadow_views, view_block_.name());
-  gl::api().BindTextureUnit(unit, maps_.name());
-  gl::api().BindSampler(unit, sampler_.name());
+  gl::bind_texture(unit, maps_, sampler_.name());
 }
 
 std::size_t ShadowMaps::bytes() const {

@@ -138,11 +138,7 @@ class Supersampler::Accumulator {
       : tile_(tile),
         grid_(grid),
         samples_(tile.x * grid, tile.y * grid, sample_format, true),
-        sums_{sums_of(tile), sums_of(tile)} {
-    GLuint name = 0;
-    gl::api().CreateVertexArrays(1, &name);
-    no_vertices_ = gl::VertexArray(name);
-  }
+        sums_{sums_of(tile), sums_of(tile)} {}
 
   [[nodiscard]] bool fits(const glm::ivec2& tile, int grid) const { return tile_ == tile && grid_ == grid; }
   [[nodiscard]] const gl::RenderTarget& samples() const { return samples_; }
@@ -158,15 +154,10 @@ class Supersampler::Accumulator {
   void add(const gl::Program& resolve, const Tile& tile) {
     gl::api().UseProgram(resolve.name());
     gl::api().Uniform1i(resolve.uniform("grid"), grid_);
-    bind(0, samples_.color(0));
-    for (GLuint i = 0; i < sum_count; ++i) bind(i + 1, sums().color(i));
+    gl::bind_texture(0, samples_.color(0));
+    for (GLuint i = 0; i < sum_count; ++i) gl::bind_texture(i + 1, sums().color(i));
     newest_ = 1 - newest_;
-    gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums().framebuffer());
-    gl::api().Viewport(0, 0, tile.size.x, tile.size.y);
-    gl::api().Disable(GL_DEPTH_TEST);
-    gl::api().Disable(GL_CULL_FACE);
-    gl::api().BindVertexArray(no_vertices_.name());
-    gl::api().DrawArrays(GL_TRIANGLES, 0, 3);
+    triangle_.draw_into(sums(), tile.size.x, tile.size.y);
   }
 
  private:
@@ -176,17 +167,12 @@ class Supersampler::Accumulator {
 
   static gl::RenderTarget sums_of(const glm::ivec2& tile) { return {tile.x, tile.y, sum_formats, false}; }
 
-  static void bind(GLuint unit, const gl::Texture& texture) {
-    gl::api().BindTextureUnit(unit, texture.name());
-    gl::api().BindSampler(unit, 0);
-  }
-
   glm::ivec2 tile_;
   int grid_;
   gl::RenderTarget samples_;
   std::array<gl::RenderTarget, 2> sums_;
   std::size_t newest_ = 0;
-  gl::VertexArray no_vertices_;
+  gl::ScreenTriangle triangle_;
 };
 
 Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,

@@ -102,8 +102,7 @@ std::vector<float> block_values(const Prefiltered& prefiltered) {
 }
 
 void bind_texture(GLuint unit, const GpuTexture& texture, GpuScene& scene, SamplerState state) {
-  gl::api().BindTextureUnit(unit, texture.texture->name());
-  gl::api().BindSampler(unit, scene.samplers().sampler(texture.coordinates, texture.sampler_state(state)));
+  gl::bind_texture(unit, *texture.texture, scene.samplers().sampler(texture.coordinates, texture.sampler_state(state)));
 }
 
 // Directions of each kind that a sample draws from an environment, its texels together: powers of two.

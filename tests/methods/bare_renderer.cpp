@@ -198,9 +198,7 @@ Image upright(const Image& picture) {
 struct Triangles {
   explicit Triangles(const Mesh& mesh)
       : vertices(std::as_bytes(std::span(mesh.vertices))), indices(std::as_bytes(std::span(mesh.indices))) {
-    GLuint name = 0;
-    gl::api().CreateVertexArrays(1, &name);
-    array = gl::VertexArray(name);
+    const GLuint name = array.name();
     gl::api().VertexArrayVertexBuffer(name, 0, vertices.name(), 0, sizeof(Vertex));
     gl::api().VertexArrayElementBuffer(name, indices.name());
     constexpr std::array<std::pair<GLint, std::size_t>, 4> members{{{3, offsetof(Vertex, position)},
@@ -216,7 +214,7 @@ struct Triangles {
   }
 
   gl::Buffer vertices, indices;
-  gl::VertexArray array;
+  gl::VertexArray array = gl::VertexArray::make();
 };
 
 }  // namespace

@@ -25,30 +25,22 @@ struct WeighedTrips {
 // The programs of a frame: one with a single round per loop, and one per kind of loop with one round more.
 std::vector<WeighedTrips> weighed_trips(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
   const auto unrolled = [](std::size_t count) { return std::clamp(static_cast<int>(count), 1, most_unrolled_lights); };
-  const FixedTrips base{.probes = 1,
-                        .lobes = 1,
-                        .rounds = 1,
-                        .point_lights = unrolled(lights.point),
-                        .spot_lights = unrolled(lights.spot),
-                        .directional_lights = unrolled(lights.directional),
-                        .area_lights = unrolled(lights.area),
-                        .area_points = unrolled(lights.area_points)};
+  FixedTrips base;
+  std::ranges::transform(lights.of, base.lights.begin(), unrolled);
   std::vector<WeighedTrips> programs{{base, 1.0}};
-  const auto add = [&](int FixedTrips::*loop, double further) {
+  const auto add = [&](auto rounds_of, double further) {
     if (further <= 0) return;
     FixedTrips longer = base;
-    ++(longer.*loop);
+    ++rounds_of(longer);
     programs.front().weight -= further;
     programs.push_back({longer, further});
   };
-  add(&FixedTrips::probes, trips.probes - 1);
-  add(&FixedTrips::lobes, trips.lobes - 1);
-  add(&FixedTrips::rounds, trips.rounds - 1);
-  add(&FixedTrips::point_lights, static_cast<double>(lights.point) - base.point_lights);
-  add(&FixedTrips::spot_lights, static_cast<double>(lights.spot) - base.spot_lights);
-  add(&FixedTrips::directional_lights, static_cast<double>(lights.directional) - base.directional_lights);
-  add(&FixedTrips::area_lights, static_cast<double>(lights.area) - base.area_lights);
-  add(&FixedTrips::area_points, static_cast<double>(lights.area_points) - base.area_points);
+  add([](FixedTrips& t) -> int& { return t.probes; }, trips.probes - 1);
+  add([](FixedTrips& t) -> int& { return t.lobes; }, trips.lobes - 1);
+  add([](FixedTrips& t) -> int& { return t.rounds; }, trips.rounds - 1);
+  for (std::size_t i = 0; i < light_kinds.size(); ++i)
+    add([i](FixedTrips& t) -> int& { return t.lights.at(i); },
+        static_cast<double>(lights.of.at(i)) - base.lights.at(i));
   return programs;
 }
 

@@ -163,15 +163,7 @@ Options options_of(const Method& method, const MethodSpec& spec) {
 }
 
 BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
-  return {.method = &method,
-          .spec = spec,
-          .options = options_of(method, spec),
-          .materials = {},
-          .shared = {},
-          .seconds = 0,
-          .bytes = 0,
-          .texels = 0,
-          .cached = false};
+  return {.method = &method, .spec = spec, .options = options_of(method, spec)};
 }
 
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,

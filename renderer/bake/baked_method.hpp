@@ -50,9 +50,9 @@ struct BakedMethod {
   const Method* method = nullptr;
   MethodSpec spec;
   Options options;
-  std::vector<Prefiltered> materials;  ///< one per material of the scene
+  std::vector<Prefiltered> materials{};  ///< one per material of the scene
   /// Material and number of each texture whose texels an earlier material has: on the GPU they are stored once.
-  std::set<std::pair<std::size_t, std::size_t>> shared;
+  std::set<std::pair<std::size_t, std::size_t>> shared{};
   double seconds = 0;
   std::size_t bytes = 0;   ///< on the GPU; texels that several materials share count once
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)

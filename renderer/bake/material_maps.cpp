@@ -24,9 +24,18 @@ Image normals_or_flat(const std::optional<TextureMap>& map) {
   return flat;
 }
 
-TextureCoordinates coordinates_of_coat(const Material& material, std::optional<TextureMap> ClearCoat::*map) {
-  if (!material.coat || !((*material.coat).*map)) return {};
-  return ((*material.coat).*map)->coordinates;
+TextureCoordinates coordinates_of(const std::optional<TextureMap>& map) {
+  return map ? map->coordinates : TextureCoordinates{};
+}
+
+// Of a material without a coat, one of weight 0.
+const ClearCoat& coat_of(const Material& material) {
+  static const ClearCoat none{.weight = 0.0F};
+  return material.coat ? *material.coat : none;
+}
+
+Image one_channel_of(const std::optional<TextureMap>& map, float constant) {
+  return map ? map->image.decoded() : Image(1, 1, 1, constant);
 }
 
 }  // namespace
@@ -84,13 +93,11 @@ Image specular_map_of(const Material& material) {
 }
 
 Image coat_weight_map_of(const Material& material) {
-  if (!material.coat) return Image(1, 1, 1, 0.0F);
-  return material.coat->weight_map ? material.coat->weight_map->image.decoded() : Image(1, 1, 1, material.coat->weight);
+  return one_channel_of(coat_of(material).weight_map, coat_of(material).weight);
 }
 
 Image coat_width_map_of(const Material& material) {
-  const ClearCoat coat = material.coat.value_or(ClearCoat{});
-  Image widths = coat.roughness_map ? coat.roughness_map->image.decoded() : Image(1, 1, 1, coat.roughness);
+  Image widths = one_channel_of(coat_of(material).roughness_map, coat_of(material).roughness);
   std::ranges::transform(widths.texels, widths.texels.begin(), [](float roughness) {
     const float alpha = std::max(roughness * roughness, smallest_coat_alpha);
     return alpha * alpha;
@@ -99,7 +106,7 @@ Image coat_width_map_of(const Material& material) {
 }
 
 Image coat_normal_map_of(const Material& material) {
-  const Image map = normals_or_flat(material.coat ? material.coat->normal_map : std::nullopt);
+  const Image map = normals_or_flat(coat_of(material).normal_map);
   Image normals(map.width, map.height, 3);
   for (std::size_t i = 0; i < map.texels.size() / 4; ++i) {
     const bool valid = map.texels[4 * i + 3] > 0.5F;
@@ -130,41 +137,18 @@ float wrap_number(Wrap wrap) {
   return wrap == Wrap::mirrored_repeat ? 1.0F : 2.0F;
 }
 
-TextureCoordinates normal_coordinates(const Material& material) {
-  return material.normal_map ? material.normal_map->coordinates : TextureCoordinates{};
+TextureCoordinates normal_coordinates(const Material& m) { return coordinates_of(m.normal_map); }
+TextureCoordinates layer_coordinates(const Material& m) { return coordinates_of(m.layer_map); }
+TextureCoordinates roughness_coordinates(const Material& m) {
+  return coordinates_of(m.lobe_parameter_map ? m.lobe_parameter_map : m.metallic_roughness_map);
 }
-
-TextureCoordinates layer_coordinates(const Material& material) {
-  return material.layer_map ? material.layer_map->coordinates : TextureCoordinates{};
-}
-
-TextureCoordinates roughness_coordinates(const Material& material) {
-  if (material.lobe_parameter_map) return material.lobe_parameter_map->coordinates;
-  return material.metallic_roughness_map ? material.metallic_roughness_map->coordinates : TextureCoordinates{};
-}
-
-TextureCoordinates base_color_coordinates(const Material& material) {
-  return material.base_color_map ? material.base_color_map->coordinates : TextureCoordinates{};
-}
-
-TextureCoordinates specular_coordinates(const Material& material) {
-  return material.specular_map ? material.specular_map->coordinates : TextureCoordinates{};
-}
-
-TextureCoordinates coat_weight_coordinates(const Material& material) {
-  return coordinates_of_coat(material, &ClearCoat::weight_map);
-}
-
-TextureCoordinates coat_width_coordinates(const Material& material) {
-  return coordinates_of_coat(material, &ClearCoat::roughness_map);
-}
-
-TextureCoordinates coat_normal_coordinates(const Material& material) {
-  return coordinates_of_coat(material, &ClearCoat::normal_map);
-}
-
-TextureCoordinates share_coordinates(const Material& material) {
-  return material.share ? material.share->map.coordinates : TextureCoordinates{};
+TextureCoordinates base_color_coordinates(const Material& m) { return coordinates_of(m.base_color_map); }
+TextureCoordinates specular_coordinates(const Material& m) { return coordinates_of(m.specular_map); }
+TextureCoordinates coat_weight_coordinates(const Material& m) { return coordinates_of(coat_of(m).weight_map); }
+TextureCoordinates coat_width_coordinates(const Material& m) { return coordinates_of(coat_of(m).roughness_map); }
+TextureCoordinates coat_normal_coordinates(const Material& m) { return coordinates_of(coat_of(m).normal_map); }
+TextureCoordinates share_coordinates(const Material& m) {
+  return m.share ? m.share->map.coordinates : TextureCoordinates{};
 }
 
 std::span<const SharedMap> shared_maps() {

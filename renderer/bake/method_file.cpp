@@ -63,24 +63,21 @@ Prefiltered mean_lobe(const Job& job) {
                 "give storage=fp32 or storage=fp16");
   }
   return {.textures = {make_texture("mean_lobe", mip_chain(lobe_parameter_map_of(job.material)), job.storage,
-                                    roughness_coordinates(job.material))},
-          .scalars = {}};
+                                    roughness_coordinates(job.material))}};
 }
 
 Prefiltered finest_roughness(const Job& job) {
   if (!has(job.effects, Effect::roughness_variation)) return {};
   return {.textures = {make_level_texture("finest_roughness", roughness_map_of(job.material),
                                           is_block(job.storage) ? Storage::bc4 : job.storage,
-                                          roughness_coordinates(job.material))},
-          .scalars = {}};
+                                          roughness_coordinates(job.material))}};
 }
 
 Prefiltered finest_normal(const Job& job) {
   if (!has(job.effects, Effect::normal_variation)) return {};
   const Storage storage = job.storage == Storage::unorm8 ? Storage::fp16 : job.storage;  // bytes have no sign
   return {.textures = {make_level_texture("finest_normal", normal_map_of(job.material), storage,
-                                          normal_coordinates(job.material))},
-          .scalars = {}};
+                                          normal_coordinates(job.material))}};
 }
 
 // What a head may list under `reads`, and the options that come with it.

@@ -255,7 +255,6 @@ PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Stor
   return {.name = std::move(name),
           .storage = storage,
           .channels = channels,
-          .layers = 0,
           .filter = TextureFilter::trilinear,
           .coordinates = coordinates,
           .levels = std::move(levels)};

@@ -77,7 +77,7 @@ struct PrefilteredTexture {
 /// The result of a precompute: all inputs of the method's shader except the shared material.
 struct Prefiltered {
   std::vector<PrefilteredTexture> textures;
-  std::map<std::string, float> scalars;                     ///< uniform float NAME
+  std::map<std::string, float> scalars{};                   ///< uniform float NAME
   std::map<std::string, std::vector<glm::vec2>> vectors{};  ///< uniform vec2 NAME[size]; none is empty
   std::vector<std::string> notes{};  ///< remarks for the user, one sentence each, which tables show
   /// For each vertex of the material (triangles_of): its uv in textures that show each point of the surface once. None:

@@ -66,9 +66,7 @@ OptionSpec number_option(std::string name, double value, double minimum, double 
           .default_value = value,
           .minimum = minimum,
           .maximum = maximum,
-          .choices = {},
-          .meaning = std::move(meaning),
-          .integer = false};
+          .meaning = std::move(meaning)};
 }
 
 OptionSpec whole_option(std::string name, int value, int minimum, int maximum, std::string meaning) {
@@ -78,13 +76,7 @@ OptionSpec whole_option(std::string name, int value, int minimum, int maximum, s
 }
 
 OptionSpec word_option(std::string name, const std::vector<std::string>& choices, std::string meaning) {
-  return {.name = std::move(name),
-          .default_value = choices.front(),
-          .minimum = 0,
-          .maximum = 0,
-          .choices = choices,
-          .meaning = std::move(meaning),
-          .integer = false};
+  return {.name = std::move(name), .default_value = choices.front(), .choices = choices, .meaning = std::move(meaning)};
 }
 
 OptionSpec named_in_shaders(OptionSpec option, std::string name) {

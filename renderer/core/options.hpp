@@ -16,7 +16,7 @@ struct OptionSpec {
   std::variant<double, std::string> default_value;
   double minimum = 0.0, maximum = 0.0;  ///< numbers only, both inclusive
   std::vector<std::string> choices{};   ///< words only
-  std::string meaning;                  ///< one sentence, with units
+  std::string meaning{};                ///< one sentence, with units
   bool integer = false;                 ///< numbers only: whole numbers
   /// The name in shaders if it differs, so that two methods with a common text may name an option differently.
   std::string name_in_shaders{};

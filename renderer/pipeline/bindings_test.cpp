@@ -129,14 +129,14 @@ TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
 TEST(BlockBindings, AreThoseOfTheShaders) {
   const std::map<std::string, GLuint> expected{{"MaterialBlock", block_binding::material},
                                                {"MethodBlock", block_binding::method},
-                                               {"PointLights", block_binding::point_lights},
-                                               {"SpotLights", block_binding::spot_lights},
-                                               {"DirectionalLights", block_binding::directional_lights},
+                                               {"PointLights", light_kinds[light_kind::point].binding},
+                                               {"SpotLights", light_kinds[light_kind::spot].binding},
+                                               {"DirectionalLights", light_kinds[light_kind::directional].binding},
                                                {"EnvironmentBlock", block_binding::environment},
                                                {"ShadowViews", block_binding::shadow_views},
-                                               {"AreaLights", block_binding::area_lights},
-                                               {"AreaPoints", block_binding::area_points}};
-  const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}, .area_points = 1},
+                                               {"AreaLights", light_kinds[light_kind::area].binding},
+                                               {"AreaPoints", light_kinds[light_kind::area_point].binding}};
+  const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}, .lights = {0, 0, 0, 0, 1}},
                                          {.textures = {}, .scalars = {{"own", 1.0F}}});
   std::map<std::string, GLuint> found;
   const std::regex block(R"(layout\(std140, binding = (\d+)\) uniform (\w+))");

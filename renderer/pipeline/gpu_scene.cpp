@@ -119,7 +119,7 @@ bool maps_share_coordinates(const Material& m) {
 
 // A block without lights stores one dark light, because the shader's array has at least one element.
 gl::Buffer light_buffer(std::span<const glm::vec4> values) {
-  static constexpr std::array<glm::vec4, area_light_vectors> dark{};
+  static constexpr std::array<glm::vec4, light_kinds[light_kind::area].vectors> dark{};
   return gl::Buffer(std::as_bytes(values.empty() ? std::span<const glm::vec4>(dark) : values),
                     gl::Buffer::Content::changing);
 }
@@ -173,13 +173,11 @@ void add_shared_textures(const Material& material, const EffectSet& effects, Sha
 }
 
 // All lights of one kind must fit into one uniform block.
-void require_capacity(const gl::ContextInfo& context, std::string_view kind, std::span<const glm::vec4> block,
-                      std::size_t vectors_per_light, const std::string& source) {
-  const std::size_t most =
-      static_cast<std::size_t>(context.max_uniform_block_bytes) / sizeof(glm::vec4) / vectors_per_light;
-  const std::size_t lights = block.size() / vectors_per_light;
+void require_capacity(const gl::ContextInfo& context, const LightKind& kind, std::size_t lights,
+                      const std::string& source) {
+  const std::size_t most = static_cast<std::size_t>(context.max_uniform_block_bytes) / sizeof(glm::vec4) / kind.vectors;
   if (lights <= most) return;
-  throw Error(ErrorKind::machine, source, fmt::format("has {} {} lights", lights, kind),
+  throw Error(ErrorKind::machine, source, fmt::format("has {} {} lights", lights, kind.name),
               fmt::format("the OpenGL of this machine takes {} at once: leave the others out", most));
 }
 
@@ -340,31 +338,21 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
     shared_bytes_ += shadow_maps_->bytes();
   }
   const LightBlocks blocks = blocks_of(scene.lights);
-  require_capacity(context, "point", blocks.point, 2, scene.source);
-  require_capacity(context, "spot", blocks.spot, 4, scene.source);
-  require_capacity(context, "directional", blocks.directional, 2, scene.source);
-  require_capacity(context, "area", blocks.area, area_light_vectors, scene.source);
-  require_capacity(context, "points of area", blocks.area_points, 1, scene.source);
-  point_lights_ = light_buffer(blocks.point);
-  spot_lights_ = light_buffer(blocks.spot);
-  directional_lights_ = light_buffer(blocks.directional);
-  area_lights_ = light_buffer(blocks.area);
-  area_points_ = light_buffer(blocks.area_points);
-  light_counts_ = {.point = blocks.point.size() / 2,
-                   .spot = blocks.spot.size() / 4,
-                   .directional = blocks.directional.size() / 2,
-                   .area = blocks.area.size() / area_light_vectors,
-                   .area_points = blocks.area_points.size(),
+  light_counts_ = {.of = {},
                    .area_by_lobes = blocks.area_by_lobes,
                    .points_alone = blocks.points_alone,
                    .shadow_maps = shadow_maps_ ? shadow_maps_->views().views.size() : 0};
+  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
+    light_counts_.of[i] = blocks.vectors[i].size() / light_kinds[i].vectors;
+    require_capacity(context, light_kinds[i], light_counts_.of[i], scene.source);
+    light_buffers_[i] = light_buffer(blocks.vectors[i]);
+    add_to_hash(content_.lights, std::as_bytes(std::span(blocks.vectors[i])));
+  }
   if (!has(effects_, Effect::environment_light)) {
     environment_ = nullptr;
   } else if (environment_ == nullptr) {
     environment_ = std::make_shared<GpuEnvironment>(scene.environment.value_or(constant_environment(glm::vec3(0.0F))));
   }
-  for (const auto* block : {&blocks.point, &blocks.spot, &blocks.directional, &blocks.area, &blocks.area_points})
-    add_to_hash(content_.lights, std::as_bytes(std::span(*block)));
 }
 
 const GpuAreaCosines& GpuScene::area_cosines() {
@@ -397,34 +385,27 @@ void GpuScene::update(const Scene& scene) {
   }
   if (visibility_ && content.geometry != content_.geometry) make_visibility(scene, no_progress, nullptr);
   const LightBlocks blocks = blocks_of(scene.lights);
-  const auto write = [&](const gl::Buffer& buffer, std::span<const glm::vec4> values, std::size_t count) {
-    require(values.size() == count, "lights");
-    if (count > 0) buffer.write(std::as_bytes(values));
+  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
+    const std::span<const glm::vec4> values = blocks.vectors[i];
+    require(values.size() == light_kinds[i].vectors * light_counts_.of[i], "lights");
+    if (!values.empty()) light_buffers_[i].write(std::as_bytes(values));
     add_to_hash(content.lights, std::as_bytes(values));
-  };
-  write(point_lights_, blocks.point, 2 * light_counts_.point);
-  write(spot_lights_, blocks.spot, 4 * light_counts_.spot);
-  write(directional_lights_, blocks.directional, 2 * light_counts_.directional);
-  write(area_lights_, blocks.area, area_light_vectors * light_counts_.area);
-  write(area_points_, blocks.area_points, light_counts_.area_points);
+  }
   content_ = content;
 }
 
 void GpuScene::bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes) const {
-  const auto bind = [&](Effect effect, GLuint binding, const gl::Buffer& buffer, const char* counter,
-                        std::size_t count) {
-    if (!has(effects_, effect)) return;
-    gl::api().BindBufferBase(GL_UNIFORM_BUFFER, binding, buffer.name());
-    gl::api().ProgramUniform1i(program.name(), program.uniform(counter), static_cast<GLint>(count));
-  };
-  bind(Effect::point_light, block_binding::point_lights, point_lights_, "point_light_count", light_counts_.point);
-  bind(Effect::spot_light, block_binding::spot_lights, spot_lights_, "spot_light_count", light_counts_.spot);
-  bind(Effect::directional_light, block_binding::directional_lights, directional_lights_, "directional_light_count",
-       light_counts_.directional);
-  bind(Effect::area_light, block_binding::area_lights, area_lights_, "area_light_count",
-       area_by_lobes ? light_counts_.area_by_lobes : light_counts_.area);
-  bind(Effect::area_light, block_binding::area_points, area_points_, "area_point_count",
-       area_by_lobes ? light_counts_.points_alone : light_counts_.area_points);
+  PerLightKind<std::size_t> counts = light_counts_.of;
+  if (area_by_lobes) {
+    counts[light_kind::area] = light_counts_.area_by_lobes;
+    counts[light_kind::area_point] = light_counts_.points_alone;
+  }
+  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
+    const LightKind& kind = light_kinds[i];
+    if (!has(effects_, kind.effect)) continue;
+    gl::api().BindBufferBase(GL_UNIFORM_BUFFER, kind.binding, light_buffers_[i].name());
+    gl::api().ProgramUniform1i(program.name(), program.uniform(kind.counter), static_cast<GLint>(counts[i]));
+  }
   if (shadow_maps_) shadow_maps_->bind(units.unit("shadow_maps"));
 }
 

@@ -158,8 +158,7 @@ class GpuScene {
   void bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes = false) const;
 
   struct LightCounts {
-    std::size_t point = 0, spot = 0, directional = 0;
-    std::size_t area = 0, area_points = 0;            ///< area lights, and points of all of them
+    PerLightKind<std::size_t> of{};
     std::size_t area_by_lobes = 0, points_alone = 0;  ///< as in LightBlocks
     std::size_t shadow_maps = 0;
   };
@@ -175,7 +174,7 @@ class GpuScene {
   bool shared_coordinates_ = true;
   std::size_t shared_bytes_ = 0;
   std::vector<GpuBatch> batches_;
-  gl::Buffer point_lights_, spot_lights_, directional_lights_, area_lights_, area_points_;
+  PerLightKind<gl::Buffer> light_buffers_;
   LightCounts light_counts_;
   std::size_t facet_lobes_ = 1;
   std::shared_ptr<GpuEnvironment> environment_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
+#include <numeric>
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/pipeline/frame.hpp"
@@ -36,15 +37,14 @@ SampleGrid samples_of_reference(int spp, std::uint64_t seed) {
 ShaderVariant variant_of(const GpuScene& scene, bool orthographic, bool shadows) {
   EffectSet effects = scene.effects();
   effects.set(static_cast<std::size_t>(Effect::cast_shadow), shadows);
+  PerLightKind<std::size_t> lights = scene.light_counts().of;
+  lights[light_kind::area_point] = 0;
   return {.effects = effects,
           .brdf = scene.brdf(),
           .orthographic = orthographic,
           .horizon_open = scene.horizon() == Horizon::open,
           .facet_lobes = scene.facet_lobes(),
-          .point_lights = scene.light_counts().point,
-          .spot_lights = scene.light_counts().spot,
-          .directional_lights = scene.light_counts().directional,
-          .area_lights = scene.light_counts().area,
+          .lights = lights,
           .shadow_maps = scene.light_counts().shadow_maps};
 }
 
@@ -216,8 +216,8 @@ Interior InteriorFinder::render(const View& view, const Tile& part, int spp, std
   const std::vector<Tile> tiles = tiles_in(part, tile_edge_);
   if (tiles.empty()) return out;
   const glm::ivec2 largest = tiles.front().size;
-  const GpuScene::LightCounts& counts = scene_->light_counts();
-  const std::size_t lights = shadows_ ? counts.point + counts.spot + counts.directional + counts.area : 0;
+  const PerLightKind<std::size_t>& counts = scene_->light_counts().of;
+  const std::size_t lights = shadows_ ? std::reduce(counts.begin(), counts.begin() + light_kind::area_point) : 0;
   fit(geometry_, largest * samples.grid);
   if (shadows_) fit(*shadows_, largest * samples.grid);
   if (result_.width() != largest.x || result_.height() != largest.y)

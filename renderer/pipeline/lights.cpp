@@ -21,34 +21,36 @@ struct LightAppender {
   LightBlocks& blocks;
   float first_map;
 
-  void operator()(const PointLight& light) const { append(blocks.point, light, first_map); }
+  [[nodiscard]] std::vector<glm::vec4>& of(std::size_t kind) const { return blocks.vectors.at(kind); }
+
+  void operator()(const PointLight& light) const { append(of(light_kind::point), light, first_map); }
 
   void operator()(const SpotLight& light) const {
-    append(blocks.spot, light.point, first_map);
-    blocks.spot.emplace_back(light.direction, 0.0F);
+    append(of(light_kind::spot), light.point, first_map);
+    of(light_kind::spot).emplace_back(light.direction, 0.0F);
     // KHR_lights_punctual, "Inner and Outer Cone Angles": the same guard against equal angles.
     const float scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone_angle) - std::cos(light.outer_cone_angle));
-    blocks.spot.emplace_back(scale, -std::cos(light.outer_cone_angle) * scale, 0.0F, 0.0F);
+    of(light_kind::spot).emplace_back(scale, -std::cos(light.outer_cone_angle) * scale, 0.0F, 0.0F);
   }
 
   void operator()(const DirectionalLight& light) const {
-    blocks.directional.emplace_back(-light.direction, 0.0F);
-    blocks.directional.emplace_back(light.illuminance, first_map);
+    of(light_kind::directional).emplace_back(-light.direction, 0.0F);
+    of(light_kind::directional).emplace_back(light.illuminance, first_map);
   }
 
   void operator()(const AreaLight& light) const {
-    const auto number = static_cast<float>(blocks.area.size() / area_light_vectors);
-    blocks.area.emplace_back(light.position, light.area());
-    blocks.area.emplace_back(light.across, light.half_size.x);
-    blocks.area.emplace_back(light.up, light.half_size.y);
-    blocks.area.emplace_back(light.direction, light.shape == AreaShape::rectangle ? 1.0F : 0.0F);
-    blocks.area.emplace_back(light.intensity, first_map);
-    blocks.area.emplace_back(1.0F / static_cast<float>(light.points), 0.0F, 0.0F, 0.0F);
+    std::vector<glm::vec4>&area = of(light_kind::area), &area_points = of(light_kind::area_point);
+    const auto number = static_cast<float>(area.size() / light_kinds[light_kind::area].vectors);
+    area.emplace_back(light.position, light.area());
+    area.emplace_back(light.across, light.half_size.x);
+    area.emplace_back(light.up, light.half_size.y);
+    area.emplace_back(light.direction, light.shape == AreaShape::rectangle ? 1.0F : 0.0F);
+    area.emplace_back(light.intensity, first_map);
+    area.emplace_back(1.0F / static_cast<float>(light.points), 0.0F, 0.0F, 0.0F);
     const bool by_lobes = light.integral == AreaIntegral::lobes;
     std::vector<glm::vec4> points;
-    for (const glm::vec3& point : area_points(light)) points.emplace_back(point, number);
-    blocks.area_points.insert(by_lobes ? blocks.area_points.end() : blocks.area_points.begin(), points.begin(),
-                              points.end());
+    for (const glm::vec3& point : footprint::area_points(light)) points.emplace_back(point, number);
+    area_points.insert(by_lobes ? area_points.end() : area_points.begin(), points.begin(), points.end());
     if (by_lobes) ++blocks.area_by_lobes;
     if (!by_lobes) blocks.points_alone += points.size();
   }

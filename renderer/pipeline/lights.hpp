@@ -1,26 +1,49 @@
 // Lights as the shaders read them: uniform blocks, and the views of their shadow maps. No GL.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "renderer/effects/effects.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
 
-/// Vectors per area light in LightBlocks.
-inline constexpr std::size_t area_light_vectors = 6;
+/// The uniform blocks of lights in surface_lights.glsl and area_lights.glsl.
+struct LightKind {
+  Effect effect;
+  std::string_view name, shader_name, counter;
+  std::size_t vectors;   ///< per light
+  std::uint8_t binding;  ///< of the block
+};
+inline constexpr std::array<LightKind, 5> light_kinds{{
+    {Effect::point_light, "point", "point_light", "point_light_count", 2, 2},
+    {Effect::spot_light, "spot", "spot_light", "spot_light_count", 4, 3},
+    {Effect::directional_light, "directional", "directional_light", "directional_light_count", 2, 4},
+    {Effect::area_light, "area", "area_light", "area_light_count", 6, 7},
+    {Effect::area_light, "points of area", "area_point", "area_point_count", 1, 8},
+}};
+/// Their places in light_kinds.
+namespace light_kind {
+inline constexpr std::size_t point = 0, spot = 1, directional = 2, area = 3, area_point = 4;
+}
 
-/// The lights of a scene by kind, in the std140 layout of surface_lights.glsl.
+/// A value for each of light_kinds.
+template <class Value>
+using PerLightKind = std::array<Value, light_kinds.size()>;
+
+/// The lights of a scene by kind, in std140 layout.
 struct LightBlocks {
-  std::vector<glm::vec4> point;        ///< 2 per light: position and range (0: unlimited), intensity and shadow map
-  std::vector<glm::vec4> spot;         ///< 4 per light: as point, then direction, cone scale and offset
-  std::vector<glm::vec4> directional;  ///< 2 per light: direction to the light, illuminance and shadow map
-  std::vector<glm::vec4> area;  ///< 6 per light, those with AreaIntegral::lobes first: AreaLight in area_lights.glsl
-  std::vector<glm::vec4>
-      area_points;                ///< 1 per point: position and number of its light; those of the last lights first
+  /// Point: position and range (0: unlimited), intensity and shadow map. Spot: as point, then direction, cone scale and
+  /// offset. Directional: direction to the light, illuminance and shadow map. Area: AreaLight in area_lights.glsl,
+  /// those with AreaIntegral::lobes first. Point of an area: position and number of its light, those of the last lights
+  /// first.
+  PerLightKind<std::vector<glm::vec4>> vectors;
   std::size_t area_by_lobes = 0;  ///< lights with AreaIntegral::lobes
   std::size_t points_alone = 0;   ///< points of lights without
 };

@@ -10,6 +10,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/core/options.hpp"
 #include "renderer/effects/effects.hpp"
+#include "renderer/pipeline/lights.hpp"
 #include "renderer/scene/footprint_filter.hpp"
 #include "renderer/scene/material.hpp"
 
@@ -58,7 +59,7 @@ enum class Counting {
 /// The rounds of each loop in a program that is compiled to estimate its cost; at least 1 each.
 struct FixedTrips {
   int probes = 1, lobes = 1, rounds = 1;
-  int point_lights = 1, spot_lights = 1, directional_lights = 1, area_lights = 1, area_points = 1;
+  PerLightKind<int> lights{1, 1, 1, 1, 1};
 };
 
 /// What a program is compiled for. Equal variants give equal text.
@@ -79,11 +80,9 @@ struct ShaderVariant {
   bool sums_environment = false;                             ///< MethodInfo::sums_environment
   std::size_t environment_suns = 0;            ///< suns separated from the environment (scene/environment.hpp)
   std::size_t facet_lobes = most_facet_lobes;  ///< capacity per material; a smaller one compiles faster
-  std::size_t point_lights = 0, spot_lights = 0, directional_lights = 0;
-  std::size_t area_lights = 0;  ///< of the block
-  std::size_t area_points = 0;  ///< that the program evaluates as points of light
-  bool area_lobes = false;      ///< integrates area lights by the module's lobes
-  bool area_sampled = false;    ///< of the reference: draws points of area lights and directions
+  PerLightKind<std::size_t> lights{};          ///< points of area lights: those that the program evaluates
+  bool area_lobes = false;                     ///< integrates area lights by the module's lobes
+  bool area_sampled = false;                   ///< of the reference: draws points of area lights and directions
   std::size_t shadow_maps = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <stdexcept>
 
 #include "renderer/bake/material_maps.hpp"
@@ -31,39 +32,33 @@ std::string plain_stage(const ShaderFlags& flags, std::string_view file) {
   return text.text();
 }
 
+// Lights that a program shades one by one.
+std::size_t punctual_lights(const ShaderVariant& v) {
+  return std::reduce(v.lights.begin(), v.lights.end()) - v.lights[light_kind::area];
+}
+
 std::string light_capacities(const ShaderVariant& v) {
   std::string text;
-  const auto capacity = [&](Effect effect, std::string_view name, std::size_t count) {
-    if (has(v.effects, effect))
-      text += fmt::format("const int {}_capacity = {};\n", name, std::max<std::size_t>(count, 1));
+  const auto capacity = [&](std::string_view name, std::size_t count) {
+    text += fmt::format("const int {}_capacity = {};\n", name, count);
   };
-  capacity(Effect::point_light, "point_light", v.point_lights);
-  capacity(Effect::spot_light, "spot_light", v.spot_lights);
-  capacity(Effect::directional_light, "directional_light", v.directional_lights);
-  capacity(Effect::area_light, "area_light", v.area_lights);
-  if (v.area_points > 0) text += fmt::format("const int area_point_capacity = {};\n", v.area_points);
-  text += fmt::format("const int light_capacity = {};\n",
-                      v.point_lights + v.spot_lights + v.directional_lights + v.area_points);
+  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
+    const bool is_declared = i == light_kind::area_point ? v.lights[i] > 0 : has(v.effects, light_kinds[i].effect);
+    if (is_declared) capacity(light_kinds[i].shader_name, std::max<std::size_t>(v.lights[i], 1));
+  }
+  capacity("light", punctual_lights(v));
   if (v.environment_suns > 0) text += fmt::format("const int environment_sun_count = {};\n", v.environment_suns);
-  if (calls_for_shadow_maps(v.effects)) capacity(Effect::cast_shadow, "shadow_view", v.shadow_maps);
+  if (calls_for_shadow_maps(v.effects)) capacity("shadow_view", std::max<std::size_t>(v.shadow_maps, 1));
   return text;
 }
 
 std::string fixed_trips(const std::optional<FixedTrips>& trips, const EffectSet& effects) {
   if (!trips) return {};
-  std::string text;
-  const auto constant = [&](std::string_view name, int value) {
-    text += fmt::format("const int {} = {};\n", name, value);
-  };
-  constant("fixed_probes", trips->probes);
-  constant("fixed_lobes", trips->lobes);
-  constant("fixed_rounds", trips->rounds);
-  constant("point_light_count", trips->point_lights);
-  constant("spot_light_count", trips->spot_lights);
-  constant("directional_light_count", trips->directional_lights);
-  if (has(effects, Effect::area_light)) {
-    constant("area_light_count", trips->area_lights);
-    constant("area_point_count", trips->area_points);
+  std::string text = fmt::format("const int fixed_probes = {}, fixed_lobes = {}, fixed_rounds = {};\n", trips->probes,
+                                 trips->lobes, trips->rounds);
+  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
+    if (has(effects, light_kinds[i].effect))
+      text += fmt::format("const int {} = {};\n", light_kinds[i].counter, trips->lights[i]);
   }
   return text;
 }
@@ -118,7 +113,7 @@ void add_material_block(ShaderText& text, const ShaderFlags& flags, std::size_t 
 
 // The most calls of a module's `shade` per pixel: once per light and part of a footprint.
 int shade_calls(const ShaderVariant& v) {
-  const std::size_t lights = v.point_lights + v.spot_lights + v.directional_lights + v.area_points + v.environment_suns;
+  const std::size_t lights = punctual_lights(v) + v.environment_suns;
   const int count = v.footprint.count;
   const bool tiles = v.footprint.kind == FootprintFilterKind::shaded;
   const int parts = tiles ? count * count : is_stochastic(v.footprint) ? count : 1;

@@ -16,8 +16,7 @@ namespace footprint {
 
 /// The bindings of uniform blocks in the shared shaders.
 namespace block_binding {
-inline constexpr GLuint material = 0, method = 1, point_lights = 2, spot_lights = 3, directional_lights = 4,
-                        environment = 5, shadow_views = 6, area_lights = 7, area_points = 8;
+inline constexpr GLuint material = 0, method = 1, environment = 5, shadow_views = 6;  // others: light_kinds
 }  // namespace block_binding
 
 /// The textures of one program in the order of their units, from 0.

@@ -50,15 +50,18 @@ struct AreaUse {
 // environments; patches of facets and sums over texels list none.
 AreaUse area_use(const GpuScene& scene, const Method& method, const ProgramSettings& settings) {
   const GpuScene::LightCounts& lights = scene.light_counts();
-  if (method.info.draws_directions && settings.sampling != Sampling::frame) return {.sampled = lights.area > 0};
+  if (method.info.draws_directions && settings.sampling != Sampling::frame)
+    return {.sampled = lights.of[light_kind::area] > 0};
   const bool lists_lobes = has(method.info.honours, Effect::environment_light) && !method.info.sums_environment &&
                            !has(scene.effects(), Effect::clear_coat) && !has_patches(scene.effects());
-  if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.area_points};
+  if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.of[light_kind::area_point]};
   return {.points = lights.points_alone, .by_lobes = true};
 }
 
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
   const AreaUse area = area_use(scene, *baked.method, settings);
+  PerLightKind<std::size_t> lights = scene.light_counts().of;
+  lights[light_kind::area_point] = area.points;
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
           .sampling = settings.sampling,
@@ -75,11 +78,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
           .sums_environment = baked.method->info.sums_environment,
           .environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0,
           .facet_lobes = scene.facet_lobes(),
-          .point_lights = scene.light_counts().point,
-          .spot_lights = scene.light_counts().spot,
-          .directional_lights = scene.light_counts().directional,
-          .area_lights = scene.light_counts().area,
-          .area_points = area.points,
+          .lights = lights,
           .area_lobes = area.by_lobes,
           .area_sampled = area.sampled,
           .shadow_maps = scene.light_counts().shadow_maps};

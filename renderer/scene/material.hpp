@@ -68,11 +68,11 @@ inline constexpr std::size_t most_facet_lobes = 8;
 /// A clear layer over a material, with its own GGX facets (KHR_materials_clearcoat; docs/explanation/base-brdf.md).
 /// Maps already include the factors.
 struct ClearCoat {
-  float weight = 1.0F;                      ///< 0..1, the coated share of the surface
-  float roughness = 0.0F;                   ///< perceptual, 0..1; alpha = roughness^2
-  std::optional<TextureMap> weight_map;     ///< 1 channel, 0..1
-  std::optional<TextureMap> roughness_map;  ///< 1 channel, 0..1
-  std::optional<TextureMap> normal_map;     ///< as Material::normal_map; none: the mesh's own normals
+  float weight = 1.0F;                        ///< 0..1, the coated share of the surface
+  float roughness = 0.0F;                     ///< perceptual, 0..1; alpha = roughness^2
+  std::optional<TextureMap> weight_map{};     ///< 1 channel, 0..1
+  std::optional<TextureMap> roughness_map{};  ///< 1 channel, 0..1
+  std::optional<TextureMap> normal_map{};     ///< as Material::normal_map; none: the mesh's own normals
 };
 
 /// The share of a material on a surface of several, chosen by a map of indices.

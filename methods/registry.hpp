@@ -1,6 +1,7 @@
 // The methods of this build, and their figures that no image shows. CMake writes both lists.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct Quantity {
   std::string summary;                 ///< one sentence, with the unit
   std::vector<OptionSpec> parameters;  ///< of the figure, beside the method's own options
   /// Pure. Errors (usage): the material does not have what the figure is about.
-  double (*measure)(const Material& material, const Options& options, const Options& parameters) = nullptr;
+  std::function<double(const Material& material, const Options& options, const Options& parameters)> measure;
 };
 
 /// The figures of a method of this build; none where it has no study.

@@ -85,11 +85,8 @@ float convolved(vec4 lobe, vec3 h) {
   int s = 0;
   do {
     vec2 brdf = texelFetch(iwasaki_brdf, ivec2(s, 0), 0).xy;  // sharpness, amplitude
-//? if convolution_exact
-    sum += brdf.y * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
-//? else
-    sum += brdf.y * sgApproximateConvolution(lobe.xyz, lobe.w, h, brdf.x);
-//? end
+    sum += brdf.y * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);             //? if convolution_exact
+    sum += brdf.y * sgApproximateConvolution(lobe.xyz, lobe.w, h, brdf.x);  //? else
   } while (++s < count);
   return sum / sgIntegral(lobe.w);
 //? end
@@ -195,16 +192,12 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 //? if microgeometry_visibility and tabulated_brdf
   if (iwasaki_tabulated > 0.5) {
     r.specular = tabulatedReflection(e, wi, wo);
-//? if diffuse
-    r.diffuse = vec3(0.0);  // included in tabulatedReflection
-//? end
+    r.diffuse = vec3(0.0);  // included in tabulatedReflection  //? if diffuse
     return r;
   }
 //? end
   r.specular = lobesReflect(e, s.f0, wi, wo);
-//? if diffuse
-  r.diffuse = meanDiffuse(e, s, wi, wo);
-//? end
+  r.diffuse = meanDiffuse(e, s, wi, wo);  //? if diffuse
   return r;
 }
 
@@ -214,6 +207,4 @@ float ndf(Effective e, vec3 h) {
   return sum;
 }
 
-//? if lobes_listed
-//? include iwasaki_sg_environment.glsl
-//? end
+//? include iwasaki_sg_environment.glsl if lobes_listed

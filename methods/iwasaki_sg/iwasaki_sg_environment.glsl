@@ -1,11 +1,8 @@
 // Environment light: each lobe of normals and each lobe of the facets' BRDF combine to one lobe over half vectors
 // (equation 14). lobeReflectance has the factor of the pair of directions, and visibleFacets the diffuse term.
 
-//? if lobe_base
-int baseLobeCount() { return 1; }
-//? else
-int baseLobeCount() { return textureSize(iwasaki_brdf, 0).x; }
-//? end
+int baseLobeCount() { return 1; }                               //? if lobe_base
+int baseLobeCount() { return textureSize(iwasaki_brdf, 0).x; }  //? else
 
 //? if tabulated_brdf
 int ownLobeCount() { return iwasaki_tabulated > 0.5 ? textureSize(iwasaki_table, 0).x - 1 : baseLobeCount(); }
@@ -25,11 +22,8 @@ NormalLobe normalLobe(Effective e, int i) {
   int own = ownLobeCount();
   int j = i / own;
   vec4 lobe = lobeOf(j);
-//? if microgeometry_visibility
-  float share = 1.0;  // the table stores the visible share of a pair of directions
-//? else
-  float share = shareOf(j);
-//? end
+  float share = 1.0;  // the table stores the visible share of a pair of directions  //? if microgeometry_visibility
+  float share = shareOf(j);                                                          //? else
 //? if tabulated_brdf
   if (iwasaki_tabulated > 0.5) {
     float sharpness = tabulatedLobe(i % own).x;
@@ -66,11 +60,8 @@ vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, floa
     return amplitude * tabulatedLobe(i % own).yzw * riseOf(h, wi) * meanHeight(wi.z, sharpness);
   }
 //? end
-//? if cosines_published
-  return fresnelTerm(f0, wi, wo) * amplitude * meanHeight(wi.z, sharpness);
-//? else
-  return fresnelTerm(f0, wi, wo) * amplitude * smoothFactor(lobeOf(j), h, wi, wo);
-//? end
+  return fresnelTerm(f0, wi, wo) * amplitude * meanHeight(wi.z, sharpness);         //? if cosines_published
+  return fresnelTerm(f0, wi, wo) * amplitude * smoothFactor(lobeOf(j), h, wi, wo);  //? else
 }
 
 //? if environment_diffuse
@@ -86,11 +77,8 @@ DiffuseFacets visibleFacets(Effective e, vec3 wo) {
     return DiffuseFacets(mean_normal, share * pi * texelFetch(iwasaki_table, ivec2(0), 0).yzw, true);
   }
 //? end
-//? if diffuse
-  return DiffuseFacets(mean_normal, share, false);
-//? else
-  return DiffuseFacets(mean_normal, vec3(0.0), false);  // only tables have a diffuse term here
-//? end
+  return DiffuseFacets(mean_normal, share, false);                                               //? if diffuse
+  return DiffuseFacets(mean_normal, vec3(0.0), false);  // only tables have a diffuse term here  //? else
 }
 //? end
 //? else
@@ -118,9 +106,7 @@ vec3 meanNormal(Effective e) {
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environment_stack.glsl
 //? if environment_gaussians and diffuse and not tabulated_brdf
 vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame);
-//? if environment_visibility
-float visibleElevation(vec3 direction, float elevation);
-//? end
+float visibleElevation(vec3 direction, float elevation);  //? if environment_visibility
 
 // The diffuse term under Gaussians of light, each from its axis (after equation 16). What is visible of one is the share
 // of a Gaussian beyond the nearest edge, as far as that is from the axis (Wang et al. 2009); the horizon is an edge too.
@@ -135,9 +121,7 @@ vec3 gaussianDiffuse(Effective e, Surface s, vec3 wo, mat3 frame) {
     vec3 wi = gaussian.xyz * frame;
     if (wi.z <= 0.0) continue;
     float height = wi.z;
-//? if environment_visibility
-    height = visibleElevation(gaussian.xyz, height);
-//? end
+    height = visibleElevation(gaussian.xyz, height);  //? if environment_visibility
     float visible = normalCdf(asin(clamp(height, -1.0, 1.0)) * sqrt(gaussian.w));
     sum += visible * light * meanDiffuse(e, s, wi, wo);
   } while (++k < count);

@@ -66,7 +66,7 @@ TEST(DenseTable, StoresTheSumAndInterpolatesIt) {
   const Patch& patch = material.microgeometry->patch;
   for (const Cosines cosines : {Cosines::base, Cosines::published}) {
     settings.cosines = cosines;
-    const DenseTable table(material, settings, 5, no_progress);
+    const BrdfFunction table = dense_table(material, settings, 5, no_progress);
     const FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)),
                        direction_grid(5), no_progress);
     for (const std::size_t i : {0U, 7U, 12U, 24U}) {
@@ -76,7 +76,7 @@ TEST(DenseTable, StoresTheSumAndInterpolatesIt) {
       }
     }
   }
-  EXPECT_EQ(DenseTable::byte_count(5, 3), 625U * 12U);
+  EXPECT_EQ(dense_table_bytes(5, 3), 625U * 12U);
 }
 
 // With all singular values the matrix is the lobe at the grid's normals, and fewer values leave a larger error.

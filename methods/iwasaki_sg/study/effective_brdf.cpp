@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -90,6 +91,46 @@ Eigen::MatrixXd some_rows(const Lobe& lobe, const std::vector<glm::dvec3>& norma
   return rows;
 }
 
+// What a lobe of normals reflects of light from wi, with the half vector h.
+glm::dvec3 convolved(const FacetReflection& reflection, const SphericalGaussian& fitted, const glm::dvec3& h,
+                     const glm::dvec3& wi, bool approximate) {
+  const SphericalGaussian lobe{fitted.axis, own_sharpness(fitted.sharpness)};
+  if (const auto* const base = std::get_if<Lobe>(&reflection)) return glm::dvec3(widened(*base, lobe, h));
+  if (const auto* const table = std::get_if<TabulatedLobes>(&reflection)) {
+    glm::dvec3 sum(0.0);
+    for (const ColorLobe& own : table->lobes) {
+      sum += glm::dvec3(own.amplitude) * convolution(lobe, SphericalGaussian{h, own.sharpness});
+    }
+    const double theta_d = std::acos(std::clamp(glm::dot(wi, h), 0.0, 1.0));
+    return glm::dvec3(table->diffuse) + sum * rise_at(*table, theta_d) / vmf_integral(lobe.sharpness);
+  }
+  double sum = 0.0;
+  for (const BrdfLobe& own : std::get<std::vector<BrdfLobe>>(reflection)) {
+    const SphericalGaussian about_h{h, own.sharpness};
+    sum += own.amplitude * (approximate ? approximate_convolution(lobe, about_h) : convolution(lobe, about_h));
+  }
+  return glm::dvec3(sum / vmf_integral(lobe.sharpness));
+}
+
+// The mass of a lobe, interpolated as the shader does. scales: of the cells to the light, 1 over their cosine where the
+// table includes it.
+glm::dvec3 mass_between(const Amplitudes& table, std::size_t lobe, const GridCells& in,
+                        const std::array<double, 4>& scales, const GridCells& out) {
+  const std::size_t pairs = table.directions * table.directions;
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t o = 0; o < 4; ++o) {
+      const double weight = in.weights.at(i) * out.weights.at(o) * scales.at(i);
+      const std::size_t pair = in.cells.at(i) * table.directions + out.cells.at(o);
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t channel = table.channels == 1 ? 0 : static_cast<std::size_t>(c);
+        sum[c] += weight * table.masses[(lobe * table.channels + channel) * pairs + pair];
+      }
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 LowRankLobe::LowRankLobe(const Lobe& lobe, const LowRank& sizes)
@@ -155,34 +196,31 @@ glm::dvec3 FacetSum::operator()(std::size_t wi, std::size_t wo) const {
   return sum / area;
 }
 
-DenseTable::DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress,
-                       const std::optional<LowRank>& compressed)
-    : side_(side), with_cosine_(settings.cosines == Cosines::published) {
+BrdfFunction dense_table(const Material& material, const TableSettings& settings, int side, const Progress& progress,
+                         const std::optional<LowRank>& compressed) {
   const Patch& patch = material.microgeometry->patch;
   FacetSum sum(material, settings, bin_facets(patch, sample_facets(patch, settings.facets, settings.seed)),
                direction_grid(side), progress);
   if (compressed) sum.compress(*compressed);
+  const bool with_cosine = settings.cosines == Cosines::published;
   const std::size_t n = sum.directions().size();
-  values_.resize(n * n);
+  std::vector<glm::vec3> values(n * n);  // [wi][wo]
   tbb::parallel_for(std::size_t{0}, n, [&](std::size_t wi) {
-    const double scale = with_cosine_ ? 1.0 / sum.directions()[wi].z : 1.0;
-    for (std::size_t wo = 0; wo < n; ++wo) values_[wi * n + wo] = glm::vec3(scale * sum(wi, wo));
+    const double scale = with_cosine ? 1.0 / sum.directions()[wi].z : 1.0;
+    for (std::size_t wo = 0; wo < n; ++wo) values[wi * n + wo] = glm::vec3(scale * sum(wi, wo));
   });
-}
-
-glm::dvec3 DenseTable::operator()(const glm::dvec3& wi, const glm::dvec3& wo) const {
-  const GridCells in = cells_around(wi, side_), out = cells_around(wo, side_);
-  const auto n = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
-  glm::dvec3 sum(0.0);
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t o = 0; o < 4; ++o) {
-      sum += in.weights.at(i) * out.weights.at(o) * glm::dvec3(values_[in.cells.at(i) * n + out.cells.at(o)]);
+  return [side, n, with_cosine, values = std::move(values)](const glm::dvec3& wi, const glm::dvec3& wo) {
+    const GridCells in = cells_around(wi, side), out = cells_around(wo, side);
+    glm::dvec3 mean(0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t o = 0; o < 4; ++o)
+        mean += in.weights.at(i) * out.weights.at(o) * glm::dvec3(values[in.cells.at(i) * n + out.cells.at(o)]);
     }
-  }
-  return with_cosine_ ? sum * wi.z : sum;
+    return with_cosine ? mean * wi.z : mean;
+  };
 }
 
-std::size_t DenseTable::byte_count(int side, std::size_t channels) {
+std::size_t dense_table_bytes(int side, std::size_t channels) {
   const auto n = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   return n * n * channels * sizeof(float);
 }
@@ -216,65 +254,24 @@ FacetReflection facet_reflection(const Material& material, const Options& option
   return lobe;
 }
 
-EffectiveBrdf::EffectiveBrdf(const MaterialTable& table, const TableSettings& settings, FacetReflection reflection,
-                             bool approximate)
-    : table_(table),
-      side_(settings.side),
-      directions_(direction_grid(settings.side)),
-      with_cosine_(settings.cosines == Cosines::published),
-      reflection_(std::move(reflection)),
-      approximate_(approximate) {}
-
-glm::dvec3 EffectiveBrdf::operator()(const glm::dvec3& wi, const glm::dvec3& wo) const {
-  const glm::dvec3 sum_of_directions = wi + wo;
-  const double length = glm::length(sum_of_directions);
-  if (length < 1e-4) return glm::dvec3(0.0);
-  const glm::dvec3 h = sum_of_directions / length;
-  const std::vector<glm::dvec3> amounts = masses(wi, wo);
-  glm::dvec3 sum(0.0);
-  for (std::size_t j = 0; j < amounts.size(); ++j) sum += amounts[j] * convolved(table_.amplitudes.lobes[j], h, wi);
-  return with_cosine_ ? sum * wi.z : sum;
-}
-
-glm::dvec3 EffectiveBrdf::convolved(const SphericalGaussian& fitted, const glm::dvec3& h, const glm::dvec3& wi) const {
-  const SphericalGaussian lobe{fitted.axis, own_sharpness(fitted.sharpness)};
-  if (const auto* const base = std::get_if<Lobe>(&reflection_)) return glm::dvec3(widened(*base, lobe, h));
-  if (const auto* const table = std::get_if<TabulatedLobes>(&reflection_)) {
+BrdfFunction effective_brdf(const MaterialTable& table, const TableSettings& settings, FacetReflection reflection,
+                            bool approximate) {
+  const bool with_cosine = settings.cosines == Cosines::published;
+  return [&table = table.amplitudes, side = settings.side, directions = direction_grid(settings.side), with_cosine,
+          reflection = std::move(reflection), approximate](const glm::dvec3& wi, const glm::dvec3& wo) {
+    const glm::dvec3 sum_of_directions = wi + wo;
+    const double length = glm::length(sum_of_directions);
     glm::dvec3 sum(0.0);
-    for (const ColorLobe& own : table->lobes) {
-      sum += glm::dvec3(own.amplitude) * convolution(lobe, SphericalGaussian{h, own.sharpness});
+    if (length < 1e-4) return sum;
+    const GridCells in = cells_around(wi, side), out = cells_around(wo, side);
+    std::array<double, 4> scales{};
+    for (std::size_t i = 0; i < 4; ++i) scales.at(i) = with_cosine ? 1.0 / directions[in.cells.at(i)].z : 1.0;
+    for (std::size_t j = 0; j < table.lobes.size(); ++j) {
+      sum += mass_between(table, j, in, scales, out) *
+             convolved(reflection, table.lobes[j], sum_of_directions / length, wi, approximate);
     }
-    const double theta_d = std::acos(std::clamp(glm::dot(wi, h), 0.0, 1.0));
-    return glm::dvec3(table->diffuse) + sum * rise_at(*table, theta_d) / vmf_integral(lobe.sharpness);
-  }
-  double sum = 0.0;
-  for (const BrdfLobe& own : std::get<std::vector<BrdfLobe>>(reflection_)) {
-    const SphericalGaussian about_h{h, own.sharpness};
-    sum += own.amplitude * (approximate_ ? approximate_convolution(lobe, about_h) : convolution(lobe, about_h));
-  }
-  return glm::dvec3(sum / vmf_integral(lobe.sharpness));
-}
-
-// Interpolates as the shader does, with the cosine to the light divided by that of the surface.
-std::vector<glm::dvec3> EffectiveBrdf::masses(const glm::dvec3& wi, const glm::dvec3& wo) const {
-  const Amplitudes& table = table_.amplitudes;
-  const GridCells in = cells_around(wi, side_), out = cells_around(wo, side_);
-  const std::size_t pairs = table.directions * table.directions;
-  std::vector<glm::dvec3> sums(table.lobes.size(), glm::dvec3(0.0));
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double scale = with_cosine_ ? 1.0 / directions_[in.cells.at(i)].z : 1.0;
-    for (std::size_t o = 0; o < 4; ++o) {
-      const double weight = in.weights.at(i) * out.weights.at(o) * scale;
-      const std::size_t pair = in.cells.at(i) * table.directions + out.cells.at(o);
-      for (std::size_t j = 0; j < sums.size(); ++j) {
-        for (int c = 0; c < 3; ++c) {
-          const std::size_t channel = table.channels == 1 ? 0 : static_cast<std::size_t>(c);
-          sums[j][c] += weight * table.masses[(j * table.channels + channel) * pairs + pair];
-        }
-      }
-    }
-  }
-  return sums;
+    return with_cosine ? sum * wi.z : sum;
+  };
 }
 
 }  // namespace footprint::iwasaki_sg

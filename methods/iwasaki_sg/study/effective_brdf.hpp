@@ -89,23 +89,13 @@ class FacetSum {
 /// A table of the sum for `side` x `side` directions to the light and as many to the viewer, interpolated between
 /// directions. It has the same discretised normals as the lobes. Like the table of amplitudes it stores f cos divided
 /// by the cosine if the facets' own cosine is included.
-class DenseTable {
- public:
-  /// side: 2 or more; time grows as its fourth power.
-  /// compressed: the sizes of a base lobe as Wu et al. compress it; none: the lobe itself.
-  DenseTable(const Material& material, const TableSettings& settings, int side, const Progress& progress,
-             const std::optional<LowRank>& compressed = {});
+/// side: 2 or more; time grows as its fourth power.
+/// compressed: the sizes of a base lobe as Wu et al. compress it; none: the lobe itself.
+[[nodiscard]] BrdfFunction dense_table(const Material& material, const TableSettings& settings, int side,
+                                       const Progress& progress, const std::optional<LowRank>& compressed = {});
 
-  [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
-
-  /// The bytes of its 32-bit floats.
-  [[nodiscard]] static std::size_t byte_count(int side, std::size_t channels);
-
- private:
-  int side_;
-  bool with_cosine_;
-  std::vector<glm::vec3> values_;  // [wi][wo]
-};
+/// The bytes of its 32-bit floats.
+[[nodiscard]] std::size_t dense_table_bytes(int side, std::size_t channels);
 
 /// Root mean square difference between an effective BRDF and the sum over facets, divided by the root mean square of
 /// the sum. Over all pairs of 192 random directions to the light and 192 to the viewer, uniform above 3 degrees over
@@ -121,26 +111,10 @@ using FacetReflection = std::variant<Lobe, std::vector<BrdfLobe>, TabulatedLobes
 [[nodiscard]] FacetReflection facet_reflection(const Material& material, const Options& options);
 
 /// f cos of the effective BRDF without the Fresnel and geometry terms (a tabulated BRDF includes them): Eq. 15, with
-/// amplitudes interpolated between the directions of the table.
-class EffectiveBrdf {
- public:
-  /// `approximate`: Eq. 14 instead of Eq. 11 for a base lobe of spherical Gaussians. Stores a reference to the table.
-  EffectiveBrdf(const MaterialTable& table, const TableSettings& settings, FacetReflection reflection,
-                bool approximate);
-
-  /// The value for unit vectors above the horizon, in each channel; a table of one channel gives it in all.
-  [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& wi, const glm::dvec3& wo) const;
-
- private:
-  [[nodiscard]] glm::dvec3 convolved(const SphericalGaussian& fitted, const glm::dvec3& h, const glm::dvec3& wi) const;
-  [[nodiscard]] std::vector<glm::dvec3> masses(const glm::dvec3& wi, const glm::dvec3& wo) const;
-
-  const MaterialTable& table_;
-  int side_;
-  std::vector<glm::dvec3> directions_;
-  bool with_cosine_;  // whether masses include the facets' cosine to the light
-  FacetReflection reflection_;
-  bool approximate_;
-};
+/// amplitudes interpolated between the directions of the table, to which it stores a reference. For unit vectors above
+/// the horizon; a table of one channel gives the same value in all.
+/// approximate: Eq. 14 instead of Eq. 11 for a base lobe of spherical Gaussians.
+[[nodiscard]] BrdfFunction effective_brdf(const MaterialTable& table, const TableSettings& settings,
+                                          FacetReflection reflection, bool approximate);
 
 }  // namespace footprint::iwasaki_sg

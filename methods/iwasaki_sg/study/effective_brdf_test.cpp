@@ -24,8 +24,8 @@ double shader_difference(const Material& material, const std::map<std::string, s
   effects.reset(static_cast<std::size_t>(Effect::masking_shadowing));
   const TableSettings settings = table_settings(material, options, effects);
   const MaterialTable table = patch_table(material.microgeometry->patch, settings, no_progress);
-  const EffectiveBrdf brdf(table, settings, facet_reflection(material, options),
-                           options.word("convolution") == "approximate");
+  const BrdfFunction brdf = effective_brdf(table, settings, facet_reflection(material, options),
+                                           options.word("convolution") == "approximate");
   std::mt19937_64 random(7);
   std::vector<std::array<glm::vec4, 3>> inputs;
   for (int k = 0; k < 400; ++k) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -82,11 +83,12 @@ struct Sums {
   double occupied = 0.0;     // the same over cells with facets
   double cells = 0.0;        // with facets
 
-  void add(const Sums& other, double share) {
-    squares += share * other.squares;
-    differences += share * other.differences;
-    occupied += share * other.occupied;
-    cells += share * other.cells;
+  Sums& operator+=(const Sums& other) {
+    squares += other.squares;
+    differences += other.differences;
+    occupied += other.occupied;
+    cells += other.cells;
+    return *this;
   }
 };
 
@@ -231,29 +233,15 @@ struct Fitted {
     std::vector<Sums> rows(bvndf.directions.size());
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t wi) { rows[wi] = sums_of(wi); });
     Sums sum;
-    for (const Sums& row : rows) sum.add(row, 1.0);
+    for (const Sums& row : rows) sum += row;
     return sum;
   }
 };
 
-// Means over all cells and pairs.
-Sums mean_squares(const Patch& patch, const TableSettings& settings) {
-  const Fitted fitted(patch, settings);
-  const PairSums pair_sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines);
-  const std::size_t n = fitted.bvndf.directions.size();
-  const Sums sum = fitted.total([&](std::size_t wi) {
-    Sums row;
-    for (std::size_t wo = 0; wo < n; ++wo) row.add(pair_sums.of(wi, wo), 1.0);
-    return row;
-  });
-  Sums mean;
-  mean.add(sum, 1.0 / (6.0 * cube_side * cube_side * static_cast<double>(n * n)));
-  return mean;
-}
-
 // The largest difference of an approximation from Eq. 11 over the angle between the axes.
-template <class Approximation>
-double largest_difference(double sharpness1, double sharpness2, const Approximation& approximation) {
+double largest_difference(
+    double sharpness1, double sharpness2,
+    const std::function<double(const SphericalGaussian&, const SphericalGaussian&)>& approximation) {
   // Dense where both forms matter: up to the angle at which the exponent of Eq. 14 has fallen to -40, or to the
   // antipode.
   constexpr int steps = 200'000;
@@ -285,9 +273,7 @@ double sharpness_of(double short_by) {
 }  // namespace
 
 double convolution_error(double sharpness1, double sharpness2) {
-  return largest_difference(sharpness1, sharpness2, [](const SphericalGaussian& a, const SphericalGaussian& b) {
-    return approximate_convolution(a, b);
-  });
+  return largest_difference(sharpness1, sharpness2, approximate_convolution);
 }
 
 double jakob_convolution_error(double sharpness1, double sharpness2) {
@@ -300,13 +286,18 @@ double jakob_convolution_error(double sharpness1, double sharpness2) {
   });
 }
 
-double fit_rms(const Patch& patch, const TableSettings& settings) {
-  return std::sqrt(mean_squares(patch, settings).differences);
-}
-
-double occupied_fit_rms(const Patch& patch, const TableSettings& settings) {
-  const Sums mean = mean_squares(patch, settings);
-  return std::sqrt(mean.occupied / mean.cells);
+FitErrors fit_errors(const Patch& patch, const TableSettings& settings) {
+  const Fitted fitted(patch, settings);
+  const PairSums pair_sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines);
+  const std::size_t n = fitted.bvndf.directions.size();
+  const Sums sum = fitted.total([&](std::size_t wi) {
+    Sums row;
+    for (std::size_t wo = 0; wo < n; ++wo) row += pair_sums.of(wi, wo);
+    return row;
+  });
+  return {.rms = std::sqrt(sum.differences / (6.0 * cube_side * cube_side * static_cast<double>(n * n))),
+          .relative = std::sqrt(sum.differences / sum.squares),
+          .occupied = std::sqrt(sum.occupied / sum.cells)};
 }
 
 double convolved_fit_rms(const Patch& patch, const TableSettings& settings, double sharpness) {
@@ -314,11 +305,6 @@ double convolved_fit_rms(const Patch& patch, const TableSettings& settings, doub
   const ConvolvedSums sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines, sharpness);
   const Sums sum = fitted.total([&](std::size_t wi) { return sums.of(wi); });
   return std::sqrt(std::max(sum.differences, 0.0) / sum.squares);
-}
-
-double relative_fit_rms(const Patch& patch, const TableSettings& settings) {
-  const Sums mean = mean_squares(patch, settings);
-  return std::sqrt(mean.differences / mean.squares);
 }
 
 }  // namespace footprint::iwasaki_sg

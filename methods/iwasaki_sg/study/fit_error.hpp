@@ -14,22 +14,23 @@ namespace footprint::iwasaki_sg {
 /// its value is that of Eq. 11 where the axes meet.
 [[nodiscard]] double jakob_convolution_error(double sharpness1, double sharpness2);
 
-/// Root mean square difference between gamma~ = gamma (cosines) / a_v and its lobes, over the paper's 6x128x128 normals
-/// and all pairs of directions. Lobes are integrated over cells. The single normal of a facet is as wide as the
+/// Root mean square differences between gamma~ = gamma (cosines) / a_v and its lobes, over the paper's 6x128x128
+/// normals and all pairs of directions. Lobes are integrated over cells. The single normal of a facet is as wide as the
 /// sharpest lobe, so that both sides have one kernel. The paper prints percentages of this kind without their domain.
-/// Here both sides are shares of the visible area, 1 being all, so the figure is small because most cells of most pairs
-/// are empty. The patch is treated as of one colour.
-[[nodiscard]] double fit_rms(const Patch& patch, const TableSettings& settings);
+/// Here both sides are shares of the visible area, 1 being all, so `rms` is small because most cells of most pairs are
+/// empty.
+struct FitErrors {
+  double rms;
+  double
+      relative;  ///< over the root mean square of gamma~: 0 for a perfect fit, about 1 for lobes far from its normals
+  double occupied;  ///< over the cells that contain facets alone, as a mean over those cells and all pairs
+};
 
-/// The same difference divided by the root mean square of gamma~: 0 for a perfect fit, about 1 for lobes far from the
-/// single normals that they represent.
-[[nodiscard]] double relative_fit_rms(const Patch& patch, const TableSettings& settings);
+/// Treats the patch as of one colour.
+[[nodiscard]] FitErrors fit_errors(const Patch& patch, const TableSettings& settings);
 
-/// The same difference over cells that contain facets alone, as a mean over those cells and all pairs.
-[[nodiscard]] double occupied_fit_rms(const Patch& patch, const TableSettings& settings);
-
-/// relative_fit_rms of both sides after a convolution with a lobe of `sharpness` (above 0), over the whole sphere: what
-/// a base BRDF of that sharpness shows of the difference. In closed form, by the products of lobes.
+/// The relative error of both sides after a convolution with a lobe of `sharpness` (above 0), over the whole sphere:
+/// what a base BRDF of that sharpness shows of the difference. In closed form, by the products of lobes.
 [[nodiscard]] double convolved_fit_rms(const Patch& patch, const TableSettings& settings, double sharpness);
 
 }  // namespace footprint::iwasaki_sg

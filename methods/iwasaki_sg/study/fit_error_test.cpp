@@ -51,7 +51,7 @@ TableSettings small() {
 
 // A plane is one normal, which its lobe represents.
 TEST(FitError, APlaneIsFittedExactly) {
-  EXPECT_LT(relative_fit_rms(make_patch(find_patch_kind("flat"), {}), small()), 1e-3);
+  EXPECT_LT(fit_errors(make_patch(find_patch_kind("flat"), {}), small()).relative, 1e-3);
 }
 
 // Four normals far apart: four lobes stand for them; one does not.
@@ -59,13 +59,13 @@ TEST(FitError, FewerLobesThanNormalsLeaveMore) {
   const Patch pyramids = make_patch(find_patch_kind("pyramids"), {{"floor", "0"}});
   TableSettings settings = small();
   settings.lobes = 4;
-  const double four = relative_fit_rms(pyramids, settings);
+  const double four = fit_errors(pyramids, settings).relative;
   settings.lobes = 1;
-  const double one = relative_fit_rms(pyramids, settings);
+  const double one = fit_errors(pyramids, settings).relative;
   EXPECT_LT(four, 0.01);
   EXPECT_GT(one, 0.5);
-  EXPECT_NEAR(fit_rms(pyramids, settings) / one, fit_rms(pyramids, small()) / relative_fit_rms(pyramids, small()),
-              1e-3);
+  EXPECT_NEAR(fit_errors(pyramids, settings).rms / one,
+              fit_errors(pyramids, small()).rms / fit_errors(pyramids, small()).relative, 1e-3);
 }
 
 // Wider lobes hide more of the difference. Between the sharpest and themselves, lobes differ as they are.
@@ -76,7 +76,7 @@ TEST(FitError, AConvolutionHidesWhatIsFinerThanItsLobe) {
   EXPECT_LT(convolved_fit_rms(pyramids, settings, 513.0), 0.01);
   settings.lobes = 1;
   const double sharp = convolved_fit_rms(pyramids, settings, 1e5), wide = convolved_fit_rms(pyramids, settings, 2.0);
-  EXPECT_NEAR(sharp / relative_fit_rms(pyramids, settings), 1.0, 0.1);
+  EXPECT_NEAR(sharp / fit_errors(pyramids, settings).relative, 1.0, 0.1);
   EXPECT_LT(wide, 0.5 * sharp);
 }
 
@@ -85,7 +85,7 @@ TEST(FitError, OccupiedCellsAreTheFewWithFacets) {
   const Patch pyramids = make_patch(find_patch_kind("pyramids"), {{"floor", "0"}});
   TableSettings settings = small();
   settings.lobes = 1;
-  EXPECT_GT(occupied_fit_rms(pyramids, settings), 5.0 * fit_rms(pyramids, settings));
+  EXPECT_GT(fit_errors(pyramids, settings).occupied, 5.0 * fit_errors(pyramids, settings).rms);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Measures the fit, the effective BRDF, a dense table of it and the time of each stage.
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,22 +17,19 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-// A material with a patch, and its settings by the options.
+// A material with a patch, its settings by the options, and the parameters of the quantity.
 struct Measured {
   const Material& material;
   const Options& options;
+  const Options& parameters;
   TableSettings settings;
 
   [[nodiscard]] const Patch& patch() const { return material.microgeometry->patch; }
-};
-
-Measured measured(const Material& material, const Options& options) {
-  if (!material.microgeometry) {
-    throw Error(ErrorKind::usage, "material " + material.name, "has no patch of small-scale geometry",
-                "take a scene with [microgeometry]");
+  [[nodiscard]] int side() const { return static_cast<int>(parameters.number("side")); }
+  [[nodiscard]] Prefiltered baked() const {
+    return baked_material(material, options, patch_effects(material), no_progress);
   }
-  return {material, options, table_settings(material, options, patch_effects(material))};
-}
+};
 
 template <class Work>
 double milliseconds(const Work& work) {
@@ -40,77 +38,76 @@ double milliseconds(const Work& work) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-double measured_convolution_error(const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
-  return convolution_error(parameters.number("eta1"), parameters.number("eta2"));
+Quantity of_patch(std::string name, std::string summary, std::vector<OptionSpec> parameters,
+                  std::function<double(const Measured&)> measure) {
+  return {std::move(name), std::move(summary), std::move(parameters),
+          [measure = std::move(measure)](const Material& material, const Options& options, const Options& given) {
+            if (!material.microgeometry) {
+              throw Error(ErrorKind::usage, "material " + material.name, "has no patch of small-scale geometry",
+                          "take a scene with [microgeometry]");
+            }
+            return measure({material, options, given, table_settings(material, options, patch_effects(material))});
+          }};
 }
 
-double measured_jakob_error(const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
-  return jakob_convolution_error(parameters.number("eta1"), parameters.number("eta2"));
+// The largest error of an approximation of a convolution.
+Quantity convolution_quantity(std::string name, std::string summary, double (*error)(double, double)) {
+  const auto sharpness = [](std::string eta) {
+    return number_option(std::move(eta), 100.0, 1e-3, 1e6, "Sharpness of one of the two spherical Gaussians.");
+  };
+  return {std::move(name),
+          std::move(summary),
+          {sharpness("eta1"), sharpness("eta2")},
+          [error](const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
+            return error(parameters.number("eta1"), parameters.number("eta2"));
+          }};
 }
 
-double measured_fit_rms(const Material& material, const Options& options, const Options& /*parameters*/) {
-  const Measured it = measured(material, options);
-  return fit_rms(it.patch(), it.settings);
+std::vector<Quantity> lobe_quantities() {
+  return {
+      convolution_quantity("convolution_error",
+                           "Largest difference of Eq. 14 from Eq. 11 over all angles, amplitudes of 1.",
+                           convolution_error),
+      of_patch("fit_rms",
+               "Root mean square difference of the lobes from the BVNDF over all cells of normals and pairs of "
+               "directions; 1 is all that is seen.",
+               {}, [](const Measured& it) { return fit_errors(it.patch(), it.settings).rms; }),
+      of_patch("relative_fit_rms", "The same over the root mean square of the BVNDF.", {},
+               [](const Measured& it) { return fit_errors(it.patch(), it.settings).relative; }),
+      of_patch("occupied_fit_rms", "fit_rms over the cells of normals that contain facets.", {},
+               [](const Measured& it) { return fit_errors(it.patch(), it.settings).occupied; }),
+      of_patch("convolved_fit_rms", "relative_fit_rms over the sphere after a convolution of both sides with a lobe.",
+               {number_option("sharpness", 513.0, 1e-3, 1e5, "Sharpness of that lobe.")},
+               [](const Measured& it) {
+                 return convolved_fit_rms(it.patch(), it.settings, it.parameters.number("sharpness"));
+               }),
+      convolution_quantity("jakob_convolution_error", "The same of Jakob's (2012) one spherical Gaussian.",
+                           jakob_convolution_error)};
 }
 
-double measured_relative_fit_rms(const Material& material, const Options& options, const Options& /*parameters*/) {
-  const Measured it = measured(material, options);
-  return relative_fit_rms(it.patch(), it.settings);
+// The time of one stage of the patch's table, measured once.
+Quantity stage_quantity(std::string name, const std::string& of, std::string stage) {
+  return of_patch(std::move(name), "Time of " + of + " of the patch, once, milliseconds.", {},
+                  [stage = std::move(stage)](const Measured& it) {
+                    StageClock clock;
+                    (void)patch_table(it.patch(), it.settings, clock.callback(no_progress));
+                    clock.stop();
+                    return 1e3 * std::ranges::find(clock.times(), stage, &StageTime::stage)->seconds;
+                  });
 }
 
-double measured_occupied_fit_rms(const Material& material, const Options& options, const Options& /*parameters*/) {
-  const Measured it = measured(material, options);
-  return occupied_fit_rms(it.patch(), it.settings);
+std::vector<Quantity> stage_quantities() {
+  return {stage_quantity("visibility_ms", "the visibility", "visibility"),
+          stage_quantity("bvndf_ms", "the BVNDF and its sums", "BVNDF"),
+          stage_quantity("ndf_ms", "the fit of the NDF", "NDF"),
+          stage_quantity("amplitudes_ms", "the amplitudes", "amplitudes")};
 }
 
-double measured_convolved_fit_rms(const Material& material, const Options& options, const Options& parameters) {
-  const Measured it = measured(material, options);
-  return convolved_fit_rms(it.patch(), it.settings, parameters.number("sharpness"));
-}
-
-// Milliseconds of one stage of the patch's table, measured once.
-double stage_ms(const Material& material, const Options& options, std::string_view stage) {
-  const Measured it = measured(material, options);
-  StageClock clock;
-  (void)patch_table(it.patch(), it.settings, clock.callback(no_progress));
-  clock.stop();
-  return 1e3 * std::ranges::find(clock.times(), stage, &StageTime::stage)->seconds;
-}
-
-double measured_brdf_error(const Material& material, const Options& options, const Options& /*parameters*/) {
-  const Measured it = measured(material, options);
+double brdf_error(const Measured& it) {
   const MaterialTable table = patch_table(it.patch(), it.settings, no_progress);
-  const EffectiveBrdf brdf(table, it.settings, facet_reflection(material, options),
-                           options.word("convolution") == "approximate");
-  return relative_error(material, it.settings, brdf);
-}
-
-double measured_brdf_ms(const Material& material, const Options& options, const Options& /*parameters*/) {
-  const Measured it = measured(material, options);
-  return milliseconds([&] { return baked_material(material, options, patch_effects(material), no_progress); });
-}
-
-double measured_brdf_bytes(const Material& material, const Options& options, const Options& /*parameters*/) {
-  const Measured it = measured(material, options);
-  return static_cast<double>(byte_count(baked_material(material, options, patch_effects(material), no_progress)));
-}
-
-int side_of(const Options& parameters) { return static_cast<int>(parameters.number("side")); }
-
-double measured_table_error(const Material& material, const Options& options, const Options& parameters) {
-  const Measured it = measured(material, options);
-  return relative_error(material, it.settings, DenseTable(material, it.settings, side_of(parameters), no_progress));
-}
-
-double measured_table_ms(const Material& material, const Options& options, const Options& parameters) {
-  const Measured it = measured(material, options);
-  return milliseconds([&] { return DenseTable(material, it.settings, side_of(parameters), no_progress); });
-}
-
-double measured_table_bytes(const Material& material, const Options& options, const Options& parameters) {
-  const Measured it = measured(material, options);
-  const std::size_t channels = is_tabulated(material) ? 3 : it.settings.channels;
-  return static_cast<double>(DenseTable::byte_count(side_of(parameters), channels));
+  return relative_error(it.material, it.settings,
+                        effective_brdf(table, it.settings, facet_reflection(it.material, it.options),
+                                       it.options.word("convolution") == "approximate"));
 }
 
 LowRank sizes_of(const Options& parameters) {
@@ -118,56 +115,8 @@ LowRank sizes_of(const Options& parameters) {
   return {.side = whole("side"), .normals = whole("normals"), .values = whole("values")};
 }
 
-double measured_compressed_error(const Material& material, const Options& options, const Options& parameters) {
-  const Measured it = measured(material, options);
-  const LowRank sizes = sizes_of(parameters);
-  return relative_error(material, it.settings, DenseTable(material, it.settings, sizes.side, no_progress, sizes));
-}
-
-double compressed_bytes(const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
-  return static_cast<double>(LowRankLobe::byte_count(sizes_of(parameters)));
-}
-
-OptionSpec sharpness(std::string name) {
-  return number_option(std::move(name), 100.0, 1e-3, 1e6, "Sharpness of one of the two spherical Gaussians.");
-}
-
-std::vector<Quantity> lobe_quantities() {
-  return {{"convolution_error",
-           "Largest difference of Eq. 14 from Eq. 11 over all angles, amplitudes of 1.",
-           {sharpness("eta1"), sharpness("eta2")},
-           measured_convolution_error},
-          {"fit_rms",
-           "Root mean square difference of the lobes from the BVNDF over all cells of normals and pairs of directions; "
-           "1 is all that is seen.",
-           {},
-           measured_fit_rms},
-          {"relative_fit_rms", "The same over the root mean square of the BVNDF.", {}, measured_relative_fit_rms},
-          {"occupied_fit_rms", "fit_rms over the cells of normals that contain facets.", {}, measured_occupied_fit_rms},
-          {"convolved_fit_rms",
-           "relative_fit_rms over the sphere after a convolution of both sides with a lobe.",
-           {number_option("sharpness", 513.0, 1e-3, 1e5, "Sharpness of that lobe.")},
-           measured_convolved_fit_rms},
-          {"jakob_convolution_error",
-           "The same of Jakob's (2012) one spherical Gaussian.",
-           {sharpness("eta1"), sharpness("eta2")},
-           measured_jakob_error}};
-}
-
-Quantity stage_quantity(std::string name, const std::string& of, decltype(Quantity::measure) measure) {
-  return {std::move(name), "Time of " + of + " of the patch, once, milliseconds.", {}, measure};
-}
-
-std::vector<Quantity> stage_quantities() {
-  return {
-      stage_quantity("visibility_ms", "the visibility",
-                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "visibility"); }),
-      stage_quantity("bvndf_ms", "the BVNDF and its sums",
-                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "BVNDF"); }),
-      stage_quantity("ndf_ms", "the fit of the NDF",
-                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "NDF"); }),
-      stage_quantity("amplitudes_ms", "the amplitudes",
-                     [](const Material& m, const Options& o, const Options&) { return stage_ms(m, o, "amplitudes"); })};
+BrdfFunction table_of(const Measured& it, const std::optional<LowRank>& compressed = {}) {
+  return dense_table(it.material, it.settings, it.side(), no_progress, compressed);
 }
 
 std::vector<Quantity> brdf_quantities() {
@@ -176,20 +125,33 @@ std::vector<Quantity> brdf_quantities() {
   const std::vector<OptionSpec> compression{
       side, whole_option("normals", 40, 2, 96, "Side of the grid of normals; time grows as its fourth power."),
       whole_option("values", 70, 1, 1024, "Singular values that are stored.")};
-  return {{"brdf_error",
-           "Root mean square difference of the effective BRDF from the sum over facets, for random pairs of "
-           "directions, over the root mean square of the sum.",
-           {},
-           measured_brdf_error},
-          {"brdf_bytes", "Bytes of what is baked of the material.", {}, measured_brdf_bytes},
-          {"brdf_ms", "Time of baking the material, once, milliseconds.", {}, measured_brdf_ms},
-          {"table_error", "brdf_error of a dense table of the effective BRDF.", {side}, measured_table_error},
-          {"table_bytes", "Bytes of that table.", {side}, measured_table_bytes},
-          {"table_ms", "Time of making that table, once, milliseconds.", {side}, measured_table_ms},
-          {"compressed_error",
-           "table_error where the base lobe is a matrix of few singular values, as Wu et al. 2011 compress it.",
-           compression, measured_compressed_error},
-          {"compressed_bytes", "Bytes of that matrix: both factors.", compression, compressed_bytes}};
+  return {of_patch("brdf_error",
+                   "Root mean square difference of the effective BRDF from the sum over facets, for random pairs of "
+                   "directions, over the root mean square of the sum.",
+                   {}, brdf_error),
+          of_patch("brdf_bytes", "Bytes of what is baked of the material.", {},
+                   [](const Measured& it) { return static_cast<double>(byte_count(it.baked())); }),
+          of_patch("brdf_ms", "Time of baking the material, once, milliseconds.", {},
+                   [](const Measured& it) { return milliseconds([&] { return it.baked(); }); }),
+          of_patch("table_error", "brdf_error of a dense table of the effective BRDF.", {side},
+                   [](const Measured& it) { return relative_error(it.material, it.settings, table_of(it)); }),
+          of_patch("table_bytes", "Bytes of that table.", {side},
+                   [](const Measured& it) {
+                     const std::size_t channels = is_tabulated(it.material) ? 3 : it.settings.channels;
+                     return static_cast<double>(dense_table_bytes(it.side(), channels));
+                   }),
+          of_patch("table_ms", "Time of making that table, once, milliseconds.", {side},
+                   [](const Measured& it) { return milliseconds([&] { return table_of(it); }); }),
+          of_patch("compressed_error",
+                   "table_error where the base lobe is a matrix of few singular values, as Wu et al. 2011 compress it.",
+                   compression,
+                   [](const Measured& it) {
+                     return relative_error(it.material, it.settings, table_of(it, sizes_of(it.parameters)));
+                   }),
+          {"compressed_bytes", "Bytes of that matrix: both factors.", compression,
+           [](const Material& /*material*/, const Options& /*options*/, const Options& parameters) {
+             return static_cast<double>(LowRankLobe::byte_count(sizes_of(parameters)));
+           }}};
 }
 
 std::vector<Quantity> quantity_table() {

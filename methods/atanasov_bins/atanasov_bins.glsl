@@ -2,9 +2,7 @@
 // area of the footprint's texels with normals in h's bin, divided by the area of the footprint and the solid angle of
 // the bin. If texels reflect by a lobe, it is the mean of the lobes about the normals of the bins around h.
 //? include direction_grid.glsl
-//? if roughness_lobe or roughness_bin and surface_microfacets
-//? include lobe_variance.glsl
-//? end
+//? include lobe_variance.glsl if roughness_lobe or roughness_bin and surface_microfacets
 
 // The integers of the precompute, four bytes each: packed normals and their bins.
 
@@ -76,9 +74,7 @@ float baseVariance(Footprints f) { return 0.5 * option_alpha * option_alpha; }
 float valueAbout(float variance, vec3 normal, float spread, Query q) {
   float alpha = sqrt(2.0 * (variance + spread));
   float density = flakeDensity(alpha, normal, q.h);
-//? if surface_facets
-  if (q.reflects) density *= geometryFactor(lobeFromAlpha(alpha), normal, q.h, q.wi, q.wo);
-//? end
+  if (q.reflects) density *= geometryFactor(lobeFromAlpha(alpha), normal, q.h, q.wi, q.wo);  //? if surface_facets
   return density;
 }
 //? elif roughness_bin and surface_facets
@@ -86,9 +82,7 @@ float baseVariance(Footprints f) { return binSolidAngle() / 12.0; }  // variance
 //? elif roughness_lobe
 float valueAbout(float variance, vec3 normal, float spread, Query q) {
   Facets facets = spreadFacets(normal, variance, spread);
-//? if surface_facets
-  if (q.reflects) return facetReflectance(facets, q.h, q.wi, q.wo);
-//? end
+  if (q.reflects) return facetReflectance(facets, q.h, q.wi, q.wo);  //? if surface_facets
   return facetDensity(facets, q.h);
 }
 //? end
@@ -124,11 +118,8 @@ vec4 evenPoint(int i) { return fract(0.5 + float(i + 1) * vec4(0.85667488, 0.733
 
 // The normal that a texel reflects about: its own or, if only its bin is known, one at `place` in the bin.
 vec3 normalOf(uint code, vec2 place) {
-//? if roughness_bin
-  return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);
-//? else
-  return unpackedNormal(code);
-//? end
+  return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);  //? if roughness_bin
+  return unpackedNormal(code);                                                               //? else
 }
 //? end
 //? if sampling_frame and normal_variation
@@ -146,9 +137,7 @@ Effective effective(Footprints f) {
   e.variance = baseVariance(f);
 //? if normal_variation
   uint code = wordOf(fetchFinest(bins_map, f.normal));
-//? if not sampling_frame
-  nothing_to_shade = code == no_normal;
-//? end
+  nothing_to_shade = code == no_normal;  //? if not sampling_frame
   e.normal = unpackedNormal(code);
   e.code = code;
 //? else
@@ -173,11 +162,8 @@ vec3 meanNormal(Effective e) { return e.normal; }
 //? if lobes_listed
 // A single texel: only the place in its bin is drawn.
 int drawCount(Effective e) {
-//? if roughness_bin
-  return int(option_draws);
-//? else
-  return 1;
-//? end
+  return int(option_draws);  //? if roughness_bin
+  return 1;                  //? else
 }
 
 DrawnTexel drawnTexel(Effective e, int i) { return DrawnTexel(e.code, e.variance, 1.0 / float(drawCount(e))); }
@@ -213,11 +199,8 @@ NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
 int lobesOfTexel() { return 1; }
 
 NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
-//? if roughness_bin
-  const float sharpness = 1e6;  // a mirror, sharper than any environment map
-//? else
-  float sharpness = 1.0 / variance;
-//? end
+  const float sharpness = 1e6;  // a mirror, sharper than any environment map  //? if roughness_bin
+  float sharpness = 1.0 / variance;                                            //? else
   return NormalLobe(normal, sharpness, share, lobeFromVariance(variance), false, normal);
 }
 //? end

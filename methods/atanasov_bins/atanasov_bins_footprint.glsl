@@ -5,12 +5,8 @@
 struct Effective {
   Footprint footprint;
   float variance;  // of the base lobe
-//? if diffuse
-  vec3 mean;       // of the normals
-//? end
-//? if lobes_listed
-  float drawn;     // the share of drawn texels that have a normal
-//? end
+  vec3 mean;       // of the normals  //? if diffuse
+  float drawn;     // the share of drawn texels that have a normal  //? if lobes_listed
 };
 
 struct TexelBox {
@@ -77,11 +73,8 @@ float varianceOfLists(Effective e) { return e.variance; }
 //? end
 
 float texelValue(Effective e, ivec2 texel, uint code, Query q) {
-//? if roughness_bin
-  return binOfPacked(code) == q.bin ? 1.0 / binSolidAngle() : 0.0;
-//? else
-  return valueAbout(varianceAt(e, texel), unpackedNormal(code), 0.0, q);
-//? end
+  return binOfPacked(code) == q.bin ? 1.0 / binSolidAngle() : 0.0;        //? if roughness_bin
+  return valueAbout(varianceAt(e, texel), unpackedNormal(code), 0.0, q);  //? else
 }
 
 Sum sumOfTexels(Effective e, Region r, Query q) {
@@ -203,9 +196,7 @@ float texelsWorth(float lists, float rounds) { return min(64.0 * lists, texelRou
 
 // The mean over the footprint. If all texels lack a normal it is that of a flat surface.
 float meanValue(Effective e, Query q) {
-//? if roughness_bin
-  countLobes(1);
-//? end
+  countLobes(1);  //? if roughness_bin
   Sum sum = Sum(0.0, 0.0);
   int count = regionCount(e.footprint);
   float rounds = regionRounds(count);
@@ -225,11 +216,8 @@ float meanValue(Effective e, Query q) {
     sum.area += weight * part.area;
   } while (++i < count);
   if (sum.area == 0.0) {
-//? if roughness_bin
-    sum = Sum(q.bin == binOfPacked(up_code) ? 1.0 / binSolidAngle() : 0.0, 1.0);
-//? else
-    sum = Sum(valueAbout(e.variance, vec3(0.0, 0.0, 1.0), 0.0, q), 1.0);
-//? end
+    sum = Sum(q.bin == binOfPacked(up_code) ? 1.0 / binSolidAngle() : 0.0, 1.0);  //? if roughness_bin
+    sum = Sum(valueAbout(e.variance, vec3(0.0, 0.0, 1.0), 0.0, q), 1.0);          //? else
   }
   return finishedValue(e.variance, sum.value / sum.area, q);
 }
@@ -311,11 +299,7 @@ Effective effective(Footprints f) {
   Effective e;
   e.footprint = f.normal;
   e.variance = baseVariance(f);
-//? if diffuse
-  e.mean = meanUnder(f.normal);
-//? end
-//? if lobes_listed
-  e.drawn = drawnShare(e);
-//? end
+  e.mean = meanUnder(f.normal);  //? if diffuse
+  e.drawn = drawnShare(e);  //? if lobes_listed
   return e;
 }

@@ -26,11 +26,8 @@ struct Disc {
 // The angle beyond which a lobe is below 1e-4 of its peak: where 1 - cos is 4.6 alpha^2. A ten-thousandth of a Gaussian
 // lobe is beyond it. GGX's tails reach everywhere.
 float lobeReach(float variance) {
-//? if distribution_ggx and roughness_lobe
-  return pi;
-//? else
-  return 2.0 * asin(min(2.1448 * sqrt(variance), 1.0));
-//? end
+  return pi;                                             //? if distribution_ggx and roughness_lobe
+  return 2.0 * asin(min(2.1448 * sqrt(variance), 1.0));  //? else
 }
 
 // A cap of about `lists` bins, or fewer if the lobes reach no further. The mean normal of a bin is up to half of the

@@ -4,11 +4,8 @@
 // the module has a budget of rounds, which its parts share. Eight pixels are drawn together and wait for each other at
 // the end of every loop, so the largest part of the eight counts.
 
-//? if lobes_listed
-const float other_rounds = 25000.0;  // drawn normals and their reflection
-//? else
-const float other_rounds = 5000.0;   // lookups under the footprint
-//? end
+const float other_rounds = 25000.0;  // drawn normals and their reflection  //? if lobes_listed
+const float other_rounds = 5000.0;   // lookups under the footprint         //? else
 
 // The rounds of one region in one call. The mean of normals takes up to 256 per region, once per pixel.
 float regionRounds(int regions) {
@@ -36,11 +33,8 @@ float walkRounds(float rounds, float lists) { return walk_share * rounds / max(l
 // The most copies of a map along an axis; larger footprints count as the whole map. A walk takes about four rounds per
 // copy that the footprint touches, and at most two fifths of its rounds are for these.
 float mostPeriods(float rounds) {
-//? if roughness_bin
-  const float most = 16.0;
-//? else
-  const float most = 4.0;
-//? end
+  const float most = 16.0;  //? if roughness_bin
+  const float most = 4.0;   //? else
   return clamp(sqrt(0.1 * walkRounds(rounds, mostLists(rounds))) - 1.0, 1.0, most);
 }
 //? include parallelogram.glsl

@@ -100,9 +100,7 @@ void addSample(inout ListSum sum, inout float share, Region r, Counted node, int
   if (abs(own - 0.5) < 0.499)
     own = mix(shareOfBox(r, texel, 0.0883883 * node.sides), own, float(node.texels) / (node.sides.x * node.sides.y));
   share += 0.125 * own;
-//? if not roughness_bin
-  if (node.texels <= leaf_size) addTexel(sum, texel, 0.125 * own * float(node.texels), bin);
-//? end
+  if (node.texels <= leaf_size) addTexel(sum, texel, 0.125 * own * float(node.texels), bin);  //? if not roughness_bin
 }
 
 // Eight calls, because a loop would take rounds.
@@ -174,22 +172,16 @@ Node texelNode(uint i) {
 // The side below which a node at the border counts by samples: a quarter of the side of a square as large as the
 // footprint.
 float sampledSide(Region r) {
-//? if border_texels
-  return 0.0;
-//? else
-  return 0.25 * sqrt(areaOf(r));
-//? end
+  return 0.0;                     //? if border_texels
+  return 0.25 * sqrt(areaOf(r));  //? else
 }
 
 // Whether the walk is depth first. Otherwise it visits large nodes first, so that all remaining nodes have one size
 // when rounds run out. The order does not matter only if rounds suffice for every texel at the border, about 3 per
 // texel of its length.
 bool isDepthFirst(Region r, float rounds) {
-//? if border_texels
-  return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
-//? else
-  return false;
-//? end
+  return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;  //? if border_texels
+  return false;                                                     //? else
 }
 
 // Adds a node that waited.
@@ -312,11 +304,8 @@ Region inCopy(Region r, ivec2 copy) {
 
 // Sums a list with at most `rounds` rounds of loops, which copies of the map share, plus a few for each copy.
 ListSum sumOfList(Region r, TexelList list, ListBin bin, float rounds, inout bool finished) {
-//? if roughness_bin
-  ListSum sum = ListSum(0.0);
-//? else
-  ListSum sum = ListSum(0.0, vec2(0.0), vec2(0.0));
-//? end
+  ListSum sum = ListSum(0.0);                        //? if roughness_bin
+  ListSum sum = ListSum(0.0, vec2(0.0), vec2(0.0));  //? else
   vec2 size = mapSize();
   ivec2 columns = copiesAlong(r.centre.x, r.reach.x, size.x, bins_wrap_u);
   ivec2 rows = copiesAlong(r.centre.y, r.reach.y, size.y, bins_wrap_v);

@@ -9,11 +9,8 @@ struct Peak {
   float weight;
 };
 
-//? if normal_variation
-const int peaks = int(option_k);
-//? else
-const int peaks = 1;
-//? end
+const int peaks = int(option_k);  //? if normal_variation
+const int peaks = 1;              //? else
 
 //? include summed_peaks.glsl
 //? include stretched_part.glsl
@@ -40,11 +37,8 @@ Peak peakOf(FootprintTexel texel, int i) {
 //? end
 
 vec3 meanOfNormals(Footprints f) {
-//? if normal_variation and diffuse
-  return fetch(best_lobes_mean, f.normal).xyz;
-//? else
-  return vec3(0.0, 0.0, 1.0);
-//? end
+  return fetch(best_lobes_mean, f.normal).xyz;  //? if normal_variation and diffuse
+  return vec3(0.0, 0.0, 1.0);                   //? else
 }
 
 // Stereographic coordinates of an axis.

@@ -6,16 +6,10 @@
 //? include stretched_part.glsl
 //? end
 
-//? if texture_arrays
-const int parts = int(option_k);
-//? else
-const int parts = 1;
-//? end
-//? if covariance_axes
-const int part_channels = 5;
-//? else
-const int part_channels = 6;
-//? end
+const int parts = int(option_k);  //? if texture_arrays
+const int parts = 1;              //? else
+const int part_channels = 5;  //? if covariance_axes
+const int part_channels = 6;  //? else
 
 //? include parts_module.glsl
 
@@ -115,9 +109,7 @@ void fillParts(inout Effective e, Footprints f) {
     setPart(e, i, covered, moments[i], base);
 //? end
   }
-//? if specular_joint and specular_variation
-  setTints(e, f, moments);
-//? end
+  setTints(e, f, moments);  //? if specular_joint and specular_variation
 }
 //? end
 
@@ -129,19 +121,14 @@ Effective effective(Footprints f) {
   fillParts(e, f);
 //? else
   fillParts(e, f);
-//? if diffuse and normal_variation
-  e.mean_normal = fetch(cells_normal, f.normal).xyz;
-//? else
-  e.mean_normal = vec3(0.0, 0.0, 1.0);
-//? end
+  e.mean_normal = fetch(cells_normal, f.normal).xyz;  //? if diffuse and normal_variation
+  e.mean_normal = vec3(0.0, 0.0, 1.0);                //? else
 //? end
 //? else
   e.mean_normal = vec3(0.0, 0.0, 1.0);
   BaseLobe base = baseLobe(f);
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
-//? if specular_joint and specular_variation
-  e.tint[0] = vec3(1.0);
-//? end
+  e.tint[0] = vec3(1.0);  //? if specular_joint and specular_variation
 //? end
   return e;
 }

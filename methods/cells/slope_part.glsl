@@ -7,9 +7,7 @@ struct Part {
   float share;    // of the footprint; 0: no part
   float lobe;     // parameter of a facet's lobe
   float breadth;  // slope variance per axis about `axis`, a facet's lobe included
-//? if anisotropic_lobe
-  mat2 widths;    // squared alphas of both about `axis`
-//? end
+  mat2 widths;    // squared alphas of both about `axis`  //? if anisotropic_lobe
 };
 
 struct Direction {
@@ -20,11 +18,8 @@ Direction directionOf(vec3 h) { return Direction(h); }
 
 Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
   SlopeLobe slopes = slopeLobe(mean, mat2(spread.x, spread.y, spread.y, spread.z), variance);
-//? if anisotropic_lobe
-  return Part(slopes, slopes.axis, share, lobe, slopes.breadth, slopes.widths);
-//? else
-  return Part(slopes, slopes.axis, share, lobe, slopes.breadth);
-//? end
+  return Part(slopes, slopes.axis, share, lobe, slopes.breadth, slopes.widths);  //? if anisotropic_lobe
+  return Part(slopes, slopes.axis, share, lobe, slopes.breadth);                 //? else
 }
 
 float partDensity(Part p, Direction at) { return p.share <= 0.0 ? 0.0 : p.share * slopeDensity(p.slopes, at.h); }

@@ -11,9 +11,7 @@ vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return enviro
 //? else
 // Facets at places of the finest level, and sums over facets. Places form a grid over one map, the normal map if there is
 // one. A place is a texel of it, or a part of a texel if another map is finer.
-//? if normal_layers
-//? include normal_layers.glsl
-//? end
+//? include normal_layers.glsl if normal_layers
 
 // Maps a distance from the pixel's centre on the grid's map to coordinates on another map. All coordinates are linear over
 // a pixel.
@@ -25,15 +23,9 @@ struct Mapped {
 struct Effective {
   Footprint footprint;  // on the grid's map
   vec2 size;            // of the whole map, in places
-//? if environment_summed
-  Facets facets;  // which the environment lights in the current call
-//? end
-//? if normal_variation and normal_layers
-  Mapped layer;
-//? end
-//? if roughness_variation
-  Mapped roughness;
-//? end
+  Facets facets;  // which the environment lights in the current call  //? if environment_summed
+  Mapped layer;  //? if normal_variation and normal_layers
+  Mapped roughness;  //? if roughness_variation
 };
 
 // A position q of the pixel's centre and edges (dx, dy), q in [-1/2, 1/2]^2, is at uv + (dx dy) q on each map.
@@ -71,11 +63,8 @@ Effective effective(Footprints f) {
   e.size = vec2(textureSize(base_roughness, 0));
 //? end
 //? if roughness_variation
-//? if shared_coordinates and normal_variation
-  e.roughness = Mapped(f.roughness.uv, mat2(1.0));
-//? else
-  e.roughness = mappedFrom(e.footprint, f.roughness);
-//? end
+  e.roughness = Mapped(f.roughness.uv, mat2(1.0));     //? if shared_coordinates and normal_variation
+  e.roughness = mappedFrom(e.footprint, f.roughness);  //? else
   parts = max(parts, partsOf(e.size, e.roughness, vec2(textureSize(base_roughness, 0))));
 //? end
   e.size *= parts;
@@ -104,9 +93,7 @@ Query reflectanceQuery(vec3 wi, vec3 wo) {
   q.h = halfVector(wi, wo);
   q.wi = wi;
   q.wo = wo;
-//? if environment_summed
-  q.surrounded = false;
-//? end
+  q.surrounded = false;  //? if environment_summed
   return q;
 }
 
@@ -122,9 +109,7 @@ struct Sum {
   float specular;  // densities, times geometry factors if facets reflect
   float facing;    // cosines to wi, 0 for facets that face away
   float weight;
-//? if environment_summed
-  vec3 radiance;
-//? end
+  vec3 radiance;  //? if environment_summed
 };
 
 // Facets are summed in groups, because a single 32-bit sum of many thousand terms would lose about one percent.
@@ -133,9 +118,7 @@ Sum evenSum(float value) {
   sum.specular = value;
   sum.facing = value;
   sum.weight = value;
-//? if environment_summed
-  sum.radiance = vec3(value);
-//? end
+  sum.radiance = vec3(value);  //? if environment_summed
   return sum;
 }
 
@@ -145,9 +128,7 @@ void addSum(inout Sum sum, Sum part, float weight) {
   sum.specular += weight * part.specular;
   sum.facing += weight * part.facing;
   sum.weight += weight * part.weight;
-//? if environment_summed
-  sum.radiance += weight * part.radiance;
-//? end
+  sum.radiance += weight * part.radiance;  //? if environment_summed
 }
 
 vec4 normalAt(Effective e, vec2 uv) {
@@ -194,9 +175,7 @@ void addFacets(inout Sum sum, Effective e, Facets facets, float weight, Query q)
     return;
   }
 //? end
-//? if diffuse
-  sum.facing += weight * max(dot(facets.normal, q.wi), 0.0);
-//? end
+  sum.facing += weight * max(dot(facets.normal, q.wi), 0.0);  //? if diffuse
   if (!q.has_half_vector) return;
   sum.specular += weight * (q.reflects ? facetReflectance(facets, q.h, q.wi, q.wo) : facetDensity(facets, q.h));
 }
@@ -239,11 +218,8 @@ vec2 placeIn(ivec2 cell, float edge) {
 // The most texels for environment light, within the 65535 rounds of loops per pixel (notWhole). A texel takes 1 round, or
 // 14 for a lobe with a tail. Fewer texels suffice than for lights, because environment light varies less between texels.
 float mostSurroundedTexels() {
-//? if distribution_ggx
-  const float rounds = 14.0;
-//? else
-  const float rounds = 1.0;
-//? end
+  const float rounds = 14.0;  //? if distribution_ggx
+  const float rounds = 1.0;   //? else
   return 20000.0 / (rounds * float(facetLobeCount()));
 }
 
@@ -251,14 +227,9 @@ float mostSurroundedTexels() {
 // The most texels that are looked up one by one, which all parts of a pixel share.
 float mostTexels(Query q) {
   float most = option_texels * option_texels;
-//? if environment_summed
-  if (q.surrounded) most = min(most, mostSurroundedTexels());
-//? end
-//? if filter_shaded
-  return most / float(footprint_parts * footprint_parts);
-//? else
-  return most;
-//? end
+  if (q.surrounded) most = min(most, mostSurroundedTexels());  //? if environment_summed
+  return most / float(footprint_parts * footprint_parts);  //? if filter_shaded
+  return most;                                             //? else
 }
 //? if kernel_filter
 //? include exact_filter.glsl

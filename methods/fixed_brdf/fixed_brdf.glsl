@@ -11,10 +11,7 @@ leaves_out = ["anisotropic_lobe", "normal_layers"]
 //? include facets_module.glsl
 
 Effective effective(Footprints f) {
-//? if roughness_variation
-  float lobe = lobeFromRoughness(fetchFinest(finest_roughness, f.roughness).r);
-//? else
-  float lobe = lobe_cutoff.x;
-//? end
+  float lobe = lobeFromRoughness(fetchFinest(finest_roughness, f.roughness).r);  //? if roughness_variation
+  float lobe = lobe_cutoff.x;                                                    //? else
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }

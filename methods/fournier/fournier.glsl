@@ -7,11 +7,8 @@ struct Peak {
   float weight;
 };
 
-//? if normal_variation
-const int peaks = int(option_peaks);
-//? else
-const int peaks = 1;
-//? end
+const int peaks = int(option_peaks);  //? if normal_variation
+const int peaks = 1;                  //? else
 
 //? include summed_peaks.glsl
 
@@ -32,11 +29,8 @@ Peak peakOf(FootprintTexel texel, int i) {
 //? end
 
 vec3 meanOfNormals(Footprints f) {
-//? if normal_variation and diffuse
-  return fetch(fournier_mean, f.normal).xyz;
-//? else
-  return vec3(0.0, 0.0, 1.0);
-//? end
+  return fetch(fournier_mean, f.normal).xyz;  //? if normal_variation and diffuse
+  return vec3(0.0, 0.0, 1.0);                 //? else
 }
 
 Peak upPeak() { return Peak(vec2(0.0), 0.0, 1.0); }

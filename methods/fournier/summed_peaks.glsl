@@ -26,20 +26,15 @@ vec3 directionFromDisc(vec2 p) {
   return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
 }
 
-//? if lobes_listed
-float weightOfPeaks(Footprint f);
-//? end
+float weightOfPeaks(Footprint f);  //? if lobes_listed
 
 Effective effective(Footprints f) {
   Effective e;
   e.footprint = f.normal;
   e.mean = meanOfNormals(f);
   e.variance = baseVariance(f);
-//? if lobes_listed
-  e.total = weightOfPeaks(f.normal);
-//? else
-  e.total = 1.0;
-//? end
+  e.total = weightOfPeaks(f.normal);  //? if lobes_listed
+  e.total = 1.0;                      //? else
   return e;
 }
 

@@ -3,31 +3,21 @@
 //? include footprint_slopes.glsl
 
 // Smith's masking for slopes with a mean. Displaced texels are always masked by their slopes.
-//? if masking_shadowing and geometry_smith or weighting_displacement
-//? include beckmann_lambda.glsl
-//? end
+//? include beckmann_lambda.glsl if masking_shadowing and geometry_smith or weighting_displacement
 
 struct Effective {
   SlopeLobe lobe;
   float round_lobe;  // parameter of the round base lobe of the same breadth, for terms other than Smith's
-//? if diffuse
-  mat2 root;  // of the covariance, symmetric
-//? end
-//? if lobes_listed
-  LobeRow row;
-//? end
+  mat2 root;  // of the covariance, symmetric  //? if diffuse
+  LobeRow row;  //? if lobes_listed
 };
 
 Effective effective(Footprints f) {
   Effective e;
   e.lobe = footprintLobe(f, filteredSlopes(f));
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
-//? if lobes_listed
-  e.row = lobeRow(e.lobe);
-//? end
-//? if diffuse
-  e.root = covarianceRoot(e.lobe.spread);
-//? end
+  e.row = lobeRow(e.lobe);  //? if lobes_listed
+  e.root = covarianceRoot(e.lobe.spread);  //? if diffuse
   return e;
 }
 
@@ -88,11 +78,8 @@ vec3 texelNormal(SlopeLobe lobe, vec3 h) {
 // Bump: all texels have the same weight. Displacement: a texel is weighted by its true area 1 / n_z, relative to the
 // mean's.
 float ndf(Effective e, vec3 h) {
-//? if weighting_displacement
-  return slopeDensity(e.lobe, h) * e.lobe.axis.z / texelNormal(e.lobe, h).z;
-//? else
-  return slopeDensity(e.lobe, h);
-//? end
+  return slopeDensity(e.lobe, h) * e.lobe.axis.z / texelNormal(e.lobe, h).z;  //? if weighting_displacement
+  return slopeDensity(e.lobe, h);                                             //? else
 }
 
 // The factor on F D in f * cos.
@@ -122,9 +109,7 @@ float meanLitCosine(Effective e, vec3 wi, vec3 wo) {
     for (int j = -1; j <= 1; ++j) {
       vec3 n = normalOfSlope(e.lobe.mean + e.root * (1.7320508 * vec2(i, j)));
       float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0);
-//? if weighting_displacement
-      weight *= max(dot(n, wo), 0.0) / n.z;
-//? end
+      weight *= max(dot(n, wo), 0.0) / n.z;  //? if weighting_displacement
       lit += weight * max(dot(n, wi), 0.0);
       seen += weight;
     }
@@ -145,9 +130,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     vec3 h = halfVector(wi, wo);
     r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
   }
-//? if diffuse
-  r.diffuse = diffuse(meanLitCosine(e, wi, wo) * wi, s, wi, wo);
-//? end
+  r.diffuse = diffuse(meanLitCosine(e, wi, wo) * wi, s, wi, wo);  //? if diffuse
   return r;
 }
 

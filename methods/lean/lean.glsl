@@ -13,9 +13,7 @@ struct Effective {
   SlopeLobe lobe;
   float round_lobe;  // parameter of the round base lobe of the same breadth, for the geometry term
   vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels'
-//? if lobes_listed
-  LobeRow row;
-//? end
+  LobeRow row;  //? if lobes_listed
 };
 
 //? if diffuse and normal_layers
@@ -39,15 +37,10 @@ Effective effective(Footprints f) {
   FilteredSlopes slopes = filteredSlopes(f);
   e.lobe = footprintLobe(f, slopes);
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
-//? if lobes_listed
-  e.row = lobeRow(e.lobe);
-//? end
+  e.row = lobeRow(e.lobe);  //? if lobes_listed
   e.mean_normal = vec3(0.0, 0.0, 1.0);
-//? if diffuse and normal_layers
-  e.mean_normal = meanNormal(e.lobe);
-//? elif diffuse and normal_variation
-  e.mean_normal = slopes.mean_normal;
-//? end
+  e.mean_normal = meanNormal(e.lobe);  //? if diffuse and normal_layers
+  e.mean_normal = slopes.mean_normal;  //? elif diffuse and normal_variation
   return e;
 }
 
@@ -55,11 +48,8 @@ float ndf(Effective e, vec3 h) { return slopeDensity(e.lobe, h); }
 
 // The geometry factor besides F and D in f * cos.
 float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
-//? if anisotropic_lobe
-  return stretchedGeometry(e.lobe.widths, e.round_lobe, e.lobe.axis, h, wi, wo);
-//? else
-  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);
-//? end
+  return stretchedGeometry(e.lobe.widths, e.round_lobe, e.lobe.axis, h, wi, wo);  //? if anisotropic_lobe
+  return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);                    //? else
 }
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
@@ -69,9 +59,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     vec3 h = halfVector(wi, wo);
     r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
   }
-//? if diffuse
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
   return r;
 }
 

@@ -11,18 +11,12 @@ meaning = "What of a varying lobe is averaged: the perceptual roughness, as a te
 */
 // One lobe about the renormalised mean normal, as wide as a facet of the mean roughness or the mean lobe parameter.
 //? include mean_normal.glsl
-//? if averages_roughness
-//? include mean_roughness.glsl
-//? end
+//? include mean_roughness.glsl if averages_roughness
 //? include facets_module.glsl
 
 Effective effective(Footprints f) {
-//? if averages_roughness
-  float lobe = baseLobe(f);
-//? elif roughness_variation
-  float lobe = fetch(mean_lobe, f.roughness).r;
-//? else
-  float lobe = lobe_cutoff.x;
-//? end
+  float lobe = baseLobe(f);                      //? if averages_roughness
+  float lobe = fetch(mean_lobe, f.roughness).r;  //? elif roughness_variation
+  float lobe = lobe_cutoff.x;                    //? else
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }

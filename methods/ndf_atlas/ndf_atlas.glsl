@@ -1,28 +1,19 @@
 // From one level on, tables of the density of normals over the half vector, if normals differ enough. Otherwise moments
 // of a few parts of the normals, with one stretched base lobe per part (methods/ndf_atlas/README.md).
-//? if normal_variation
-const int parts = int(option_k);
-//? else
-const int parts = 1;
-//? end
+const int parts = int(option_k);  //? if normal_variation
+const int parts = 1;              //? else
 const int part_channels = 6;
 //? include stretched_part.glsl
 //? include part_moments.glsl
-//? if normal_variation
-//? include mean_normal.glsl
-//? end
+//? include mean_normal.glsl if normal_variation
 
-//? if normal_variation and sampling_frame
-//? include ndf_atlas_tables.glsl
-//? end
+//? include ndf_atlas_tables.glsl if normal_variation and sampling_frame
 
 struct Effective {
   Part part[parts];
   float lobe_share;   // share of the parts; the rest is that of the tables
   float table_share;  // over the coverage of the texels that have tables
-//? if normal_variation and sampling_frame
-  Tables tables;
-//? end
+  Tables tables;  //? if normal_variation and sampling_frame
   float narrowing;    // how far the mean normal of facets that reflect to h is on the way to h
   float lobe;         // of a facet
   vec3 axis;          // of the mean normal
@@ -94,9 +85,7 @@ void fillTexels(inout Effective e, Footprints f, BaseLobe base) {
 //? else
   fillParts(f, any_level, base, e.part);
 //? end
-//? if lobes_listed
-  fillParts(f, whole_chain, base, surrounded);
-//? end
+  fillParts(f, whole_chain, base, surrounded);  //? if lobes_listed
 }
 //? end
 
@@ -113,19 +102,14 @@ Effective effective(Footprints f) {
   fillTexels(e, f, base);
 //? else
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
-//? if lobes_listed
-  surrounded[0] = e.part[0];
-//? end
+  surrounded[0] = e.part[0];  //? if lobes_listed
 //? end
   return e;
 }
 
 float tabulatedDensity(Effective e, vec3 h) {
-//? if normal_variation and sampling_frame
-  return e.table_share * tableSum(e.tables, h);
-//? else
-  return 0.0;
-//? end
+  return e.table_share * tableSum(e.tables, h);  //? if normal_variation and sampling_frame
+  return 0.0;                                    //? else
 }
 
 float ndf(Effective e, vec3 h) {
@@ -151,9 +135,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo))
     r.specular = fresnelTerm(s.f0, wi, wo) * reflectedDensity(e, halfVector(wi, wo), wi, wo);
-//? if diffuse
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
   return r;
 }
 

@@ -36,9 +36,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     vec3 h = halfVector(wi, wo);
     r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
   }
-//? if diffuse
-  r.diffuse = diffuse(e.normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.normal, s, wi, wo);  //? if diffuse
   return r;
 }
 

@@ -2,9 +2,7 @@
 // normals only, so that one formula also serves maps with other coordinates. The base roughness is the mean of the
 // roughness map, as in importers. The option that shaders call `bake` selects the formula.
 //? include mean_roughness.glsl
-//? if bake_karis
-//? include vmf.glsl
-//? end
+//? include vmf.glsl if bake_karis
 
 //? if bake_fit
 // c(alpha), presets.cpp.
@@ -94,16 +92,11 @@ float widened(float alpha2, float stored) {
 // The stored spread over the footprint; spreads of independent layers add.
 float storedSpread(Footprints f) {
   float stored = 0.0;
-//? if normal_variation
-  stored = fetch(normal_spread, f.normal).r;
-//? end
+  stored = fetch(normal_spread, f.normal).r;  //? if normal_variation
 //? if normal_layers
   float layer = fetch(layer_spread, f.layer).r;
-//? if bake_karis or bake_chan2018
-  stored = joined(stored, layer);
-//? else
-  stored += layer;
-//? end
+  stored = joined(stored, layer);  //? if bake_karis or bake_chan2018
+  stored += layer;                 //? else
 //? end
   return stored;
 }

@@ -2,9 +2,7 @@
 // Without neighbouring pixels (a sample of a supersampled image, the NDF inspector) the lobe is not widened.
 //? include mean_normal.glsl
 //? include mean_roughness.glsl
-//? if not bake_none
-//? include baked_roughness.glsl
-//? end
+//? include baked_roughness.glsl if not bake_none
 
 //? if preset_tokuyoshi_kaplanyan_2019 or preset_tokuyoshi_kaplanyan_2021
 // Tokuyoshi and Kaplanyan 2019, 2021: half vectors of a light spread over the pixel, in the frame of the normal, and
@@ -13,11 +11,8 @@
 
 // What of a half vector is spread: its slope in 2019, its projection on the disc in 2021.
 vec2 spreadOf(vec3 h) {
-//? if preset_tokuyoshi_kaplanyan_2019
-  return h.xy / max(abs(h.z), 1e-4);
-//? else
-  return h.xy;
-//? end
+  return h.xy / max(abs(h.z), 1e-4);  //? if preset_tokuyoshi_kaplanyan_2019
+  return h.xy;                        //? else
 }
 
 // For the unit half vectors of one light at the pixel and the next ones, each in its own frame.
@@ -54,11 +49,8 @@ float matrixDensity(mat2 alpha2, vec3 h) {
   float own = 2.0 * lobeVariance(lobe);
   float stretched = own * max(dot(h.xy, inverse(alpha2) * h.xy), 0.0);
   float ratio = inversesqrt(h.z * h.z + stretched);
-//? if distribution_ggx or distribution_beckmann
-  float jacobian = ratio * ratio * ratio * ratio;
-//? else
-  float jacobian = ratio * ratio * ratio;
-//? end
+  float jacobian = ratio * ratio * ratio * ratio;  //? if distribution_ggx or distribution_beckmann
+  float jacobian = ratio * ratio * ratio;          //? else
   vec3 turned = ratio * vec3(sqrt(stretched), 0.0, h.z);
   return lobeDensity(lobe, vec3(0.0, 0.0, 1.0), turned) * (jacobian * own / size);
 }
@@ -124,11 +116,8 @@ float screenWidenedForEnvironment(float alpha2, vec3 dx, vec3 dy) {
 
 // The lobe before: the mean roughness, as it is or with what was baked into it.
 float alpha2Before(Footprints f) {
-//? if bake_none
-  return 2.0 * lobeVariance(baseLobe(f));
-//? else
-  return bakedAlpha2(f);
-//? end
+  return 2.0 * lobeVariance(baseLobe(f));  //? if bake_none
+  return bakedAlpha2(f);                   //? else
 }
 
 //? if screen_derivatives
@@ -141,9 +130,7 @@ struct ScreenNormals {
 
 Footprints shifted(Footprints f, vec2 steps) {
   f.normal.uv += steps.x * f.normal.dx + steps.y * f.normal.dy;
-//? if normal_layers
-  f.layer.uv += steps.x * f.layer.dx + steps.y * f.layer.dy;
-//? end
+  f.layer.uv += steps.x * f.layer.dx + steps.y * f.layer.dy;  //? if normal_layers
   return f;
 }
 
@@ -189,9 +176,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo, HalfSteps steps) {
     r.specular = fresnelTerm(s.f0, wi, wo) *
                  (matrixDensity(alpha2, own) * geometryFactor(lobe, e.facets.normal, h, wi, wo));
   }
-//? if diffuse
-  r.diffuse = diffuse(e.facets.normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.facets.normal, s, wi, wo);  //? if diffuse
   return r;
 }
 
@@ -200,9 +185,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(e.
 //? else
 struct Effective {
   Facets facets;
-//? if preset_babylon
-  Facets environment_facets;
-//? end
+  Facets environment_facets;  //? if preset_babylon
 };
 
 Effective effective(Footprints f) {
@@ -210,11 +193,8 @@ Effective effective(Footprints f) {
   vec3 n = meanNormal(f).xyz;
 //? if not screen_derivatives
   Facets before = spreadFacets(n, 0.5 * alpha2, 0.0);
-//? if preset_babylon
-  return Effective(before, before);
-//? else
-  return Effective(before);
-//? end
+  return Effective(before, before);  //? if preset_babylon
+  return Effective(before);          //? else
 //? elif preset_tokuyoshi_kaplanyan_2019 or preset_tokuyoshi_kaplanyan_2021
   ScreenNormals normals = screenNormals(f);
   mat2 matrix = matrixAboutNormal(alpha2, n, normals.right, normals.above, f);

@@ -1,10 +1,7 @@
 // Components with a full covariance over the disc (option covariance=full). A texel stores weight, first and second
 // moments of each component, which reflects with the base lobe, stretched to its covariance.
-//? if normal_variation
-const int parts = int(option_n);
-//? else
-const int parts = 1;
-//? end
+const int parts = int(option_n);  //? if normal_variation
+const int parts = 1;              //? else
 const int part_channels = 6;
 //? include stretched_part.glsl
 //? include parts_module.glsl

@@ -45,9 +45,7 @@ Component recovered(vec4 filtered) {
   if (filtered.x < least_share) return Component(0.0, vec2(0.0), 0.0);
   vec2 mean = filtered.yz / filtered.x;
   float spread = max(filtered.w / filtered.x - dot(mean, mean), 0.0);  // rounding of the storage can make it negative
-//? if moment_corrected
-  spread *= 0.5;  // the texture stores E |n|^2 = |mu|^2 + 2 sigma^2, over both axes
-//? end
+  spread *= 0.5;  // the texture stores E |n|^2 = |mu|^2 + 2 sigma^2, over both axes  //? if moment_corrected
   return Component(filtered.x, mean, spread);
 }
 
@@ -58,11 +56,8 @@ float heightOver(vec2 mean) { return sqrt(max(1.0 - dot(mean, mean), 0.0)); }
 // The variance of the base lobe over the disc. From above, a solid angle shrinks by the cosine, but a lobe on the rim
 // still reaches its own width above it.
 float baseOverDisc(float variance, float height) {
-//? if foreshorten_on
-  return variance * min(max(height, sqrt(variance)), 1.0);
-//? else
-  return variance;
-//? end
+  return variance * min(max(height, sqrt(variance)), 1.0);  //? if foreshorten_on
+  return variance;                                          //? else
 }
 
 //? include vmf.glsl
@@ -110,9 +105,7 @@ void setLobe(inout Effective e, int i, float share, vec2 mean, float height, flo
   float base = clamp(lobeVariance(e.lobe), 1e-6, 4.0);
   e.width[i] = widthOverDisc(spread, base, height);
   e.amount[i] = amountOverDisc(share, mean, e.width[i], height, base);
-//? if multi_lobe
-  e.spread[i] = spread;
-//? end
+  e.spread[i] = spread;  //? if multi_lobe
 }
 
 float lobeOverComponent(Effective e, int i, vec3 h) {
@@ -138,9 +131,7 @@ void setLobe(inout Effective e, int i, float share, vec2 mean, float height, flo
   float around = spread <= 0.0 ? 0.0 : spread / max(height, sqrt(spread));
   e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + around);
   e.amount[i] = share * lobeEnergy(e.lobe) / lobeEnergy(e.width[i]);
-//? if multi_lobe
-  e.spread[i] = around;
-//? end
+  e.spread[i] = around;  //? if multi_lobe
 }
 
 float lobeOverComponent(Effective e, int i, vec3 h) {
@@ -186,11 +177,8 @@ float componentReflectance(Effective e, int i, vec3 h, vec3 wi, vec3 wo) {
 }
 
 float baseLobe(Footprints f) {
-//? if roughness_variation
-  return lobeFromVariance(facetVariance(f));
-//? else
-  return lobe_cutoff.x;
-//? end
+  return lobeFromVariance(facetVariance(f));  //? if roughness_variation
+  return lobe_cutoff.x;                       //? else
 }
 
 void setComponent(inout Effective e, int i, Component c) {
@@ -201,9 +189,7 @@ void setComponent(inout Effective e, int i, Component c) {
   e.share[i] = c.share;
   e.amount[i] = 0.0;
   e.width[i] = e.lobe;
-//? if multi_lobe
-  e.spread[i] = 0.0;
-//? end
+  e.spread[i] = 0.0;  //? if multi_lobe
   if (c.share > 0.0) setLobe(e, i, c.share, mean, height, c.spread);
 }
 
@@ -219,9 +205,7 @@ Effective effective(Footprints f) {
   float total = 0.0;
   for (int i = 0; i < components; ++i) total += layers[i].x;
   for (int i = 0; i < components; ++i) layers[i] /= max(total, 1e-6);
-//? if diffuse
-  e.mean_normal = fetch(tan_gmm_normal, f.normal).xyz;
-//? end
+  e.mean_normal = fetch(tan_gmm_normal, f.normal).xyz;  //? if diffuse
 //? end
   float covered = 0.0;  // the part of the footprint with valid normals
   for (int i = 0; i < components; ++i) {
@@ -296,9 +280,7 @@ NormalLobe facetLobeOfComponent(Effective e, int i, int k) {
 
 NormalLobe normalLobe(Effective e, int number) {
   int i = number / facetLobeCount();
-//? if multi_lobe
-  if (facet_lobe_count > 0) return facetLobeOfComponent(e, i, number % facet_lobe_count);
-//? end
+  if (facet_lobe_count > 0) return facetLobeOfComponent(e, i, number % facet_lobe_count);  //? if multi_lobe
 //? if lobe_gaussian
   return discNormalLobe(e.mean[i], e.width[i], e.amount[i], e.lobe);
 //? else
@@ -313,9 +295,7 @@ float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) {
-//? if diffuse and normal_variation and specular_joint and specular_variation
-  return e.mean_normal;
-//? end
+  return e.mean_normal;  //? if diffuse and normal_variation and specular_joint and specular_variation
   vec3 sum = vec3(0.0);
   for (int i = 0; i < components; ++i) sum += e.share[i] * e.mean[i];
   return sum;

@@ -37,9 +37,7 @@ Effective effective(Footprints f) {
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r = facetShade(e.facets, s, wi, wo);
-//? if diffuse and diffuse_mean
-  r.diffuse *= e.consistency;
-//? end
+  r.diffuse *= e.consistency;  //? if diffuse and diffuse_mean
   return r;
 }
 
@@ -49,10 +47,7 @@ float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 //? include facet_normal_lobes.glsl
 
 vec3 meanNormal(Effective e) {
-//? if diffuse_mean
-  return e.facets.normal * e.consistency;
-//? else
-  return e.facets.normal;
-//? end
+  return e.facets.normal * e.consistency;  //? if diffuse_mean
+  return e.facets.normal;                  //? else
 }
 //? end

@@ -2,9 +2,7 @@
 // hemisphere of normals. Each lobe is recovered from its characteristic vector, which the texture filter averages.
 //? include xu_vmf_conversion.glsl
 //? include xu_vmf_lobes.glsl
-//? if texture_arrays
-//? include xu_vmf_parts.glsl
-//? end
+//? include xu_vmf_parts.glsl if texture_arrays
 
 // Adds the lobes of the parts that a footprint needs, for each lobe of a facet. Facets without any lobe are flat.
 //
@@ -41,9 +39,7 @@ Effective effective(Footprints f) {
     int i = first;
     do {
       weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
-//? if lobes_listed
-      shares[i].x *= own.weight / amountsOf(e.covered);
-//? end
+      shares[i].x *= own.weight / amountsOf(e.covered);  //? if lobes_listed
     } while (++i < e.count);
     e.covered = 1.0;
 //? end
@@ -58,9 +54,7 @@ Effective effective(Footprints f) {
 
 // Facets with lobes about their own axes mask each other by their normals.
 vec3 geometryAxis(vec3 normal, vec3 mean) {
-//? if multi_lobe
-  if (facet_lobe_count > 0) return normal / max(length(normal), 1e-6);
-//? end
+  if (facet_lobe_count > 0) return normal / max(length(normal), 1e-6);  //? if multi_lobe
   return mean;
 }
 
@@ -128,9 +122,7 @@ float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) {
-//? if multi_lobe
-  if (facet_lobe_count > 0) return e.normal;
-//? end
+  if (facet_lobe_count > 0) return e.normal;  //? if multi_lobe
   vec3 sum = vec3(0.0);
   for (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;
   return sum / e.covered;

@@ -14,11 +14,8 @@ float lobeOfKappa(float kappa) { return lobeFromVariance(1.0 / max(kappa, 1e-6))
 // The energy of a base lobe over solid angle. It grows with the width of a microfacet lobe, but the mean of narrow
 // lobes keeps their energy. Therefore a wide lobe that replaces narrow ones is scaled by the ratio.
 float energyOf(float base) {
-//? if lobe_base
-  return lobeEnergy(base);
-//? else
-  return 1.0;
-//? end
+  return lobeEnergy(base);  //? if lobe_base
+  return 1.0;               //? else
 }
 
 //? if conversion_table

@@ -6,19 +6,11 @@
 //? include xu_vmf_storing.glsl
 
 layout(location = 0) out vec4 joined;
-//? if guard
-layout(location = 1) out vec4 guard;  // 1 - |r|, unaffected by the rounding of r
-//? end
+layout(location = 1) out vec4 guard;  // 1 - |r|, unaffected by the rounding of r  //? if guard
 
-//? if normal_variation
-layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 if invalid
-//? end
-//? if roughness_variation
-layout(binding = 1) uniform sampler2D variances;  // of the base lobe's slopes
-//? end
-//? if conversion_table
-layout(binding = 2) uniform sampler2D shortfalls;
-//? end
+layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 if invalid  //? if normal_variation
+layout(binding = 1) uniform sampler2D variances;  // of the base lobe's slopes  //? if roughness_variation
+layout(binding = 2) uniform sampler2D shortfalls;  //? if conversion_table
 //? if specular_joint and specular_variation
 layout(binding = 3) uniform sampler2D colours;  // luminance of the specular colour, over the largest
 //? end
@@ -60,31 +52,20 @@ vec4 texelOf(sampler2D map, int slot) {
 float weightOf(sampler2D map) { return texelOf(map, 0).r; }
 //? end
 
-//? if multi_lobe
-uniform int own_lobe;  // of a facet; -1: only its normal
-//? end
+uniform int own_lobe;  // of a facet; -1: only its normal  //? if multi_lobe
 
 float shortfall(float kappa) {
-//? if conversion_table
-  return tabulatedShortfall(shortfalls, kappa);
-//? else
-  return shortfallOf(kappa);
-//? end
+  return tabulatedShortfall(shortfalls, kappa);  //? if conversion_table
+  return shortfallOf(kappa);                     //? else
 }
 
 void main() {
   joined = vec4(0.0);
-//? if guard
-  guard = vec4(0.0);
-//? end
+  guard = vec4(0.0);  //? if guard
   vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
-//? if normal_variation
-  normal = texelOf(normals, 0);
-//? end
+  normal = texelOf(normals, 0);  //? if normal_variation
   float lobe = lobe_cutoff.x;
-//? if roughness_variation
-  lobe = lobeFromVariance(texelOf(variances, 1).r);
-//? end
+  lobe = lobeFromVariance(texelOf(variances, 1).r);  //? if roughness_variation
   float size = length(normal.xyz);  // decoded bytes are up to 0.6% too long or short
   if (normal.w < 0.5 || size < 1e-3) return;
   vec3 axis = normal.xyz / size;
@@ -101,17 +82,11 @@ void main() {
   bool front = facesViewer();
   if (!front && !two_sided) return;
   axis = tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis;
-//? if culling_normals
-  if (dot(axis, viewer.xyz - viewer.w * world_position) <= 0.0) return;
-//? end
+  if (dot(axis, viewer.xyz - viewer.w * world_position) <= 0.0) return;  //? if culling_normals
   axis = world_to_camera * axis;
 //? end
   float weight = 1.0;
-//? if specular_joint and specular_variation
-  weight = weightOf(colours);
-//? end
+  weight = weightOf(colours);  //? if specular_joint and specular_variation
   joined = stored(weight * vec4((1.0 - q) * axis, 1.0));
-//? if guard
-  guard = stored(weight * vec4(q, 0.0, 0.0, 1.0));
-//? end
+  guard = stored(weight * vec4(q, 0.0, 0.0, 1.0));  //? if guard
 }

@@ -41,11 +41,8 @@ const int most_of_one = 13;  // while blending from one lobe to 4 parts, and fro
 //? else
 const int most_of_one = 8;
 //? end
-//? if multi_lobe
-const int most_lobes = most_of_one * most_facet_lobes;
-//? else
-const int most_lobes = most_of_one;
-//? end
+const int most_lobes = most_of_one * most_facet_lobes;  //? if multi_lobe
+const int most_lobes = most_of_one;                     //? else
 
 // The data of the pixel's lobes that all lights share.
 struct Effective {
@@ -65,19 +62,14 @@ vec2 shares[most_lobes];   // of the footprint's facets (as published: the amoun
 
 struct Lobe {
   vec3 mean;
-//? if not lobe_base
-  float kappa;
-//? end
+  float kappa;  //? if not lobe_base
   float base;    // parameter of the base lobe of that width
   float amount;  // factor on its density
 };
 
 Lobe lobeOf(vec4 lobe, vec2 weights) {
-//? if lobe_base
-  return Lobe(lobe.xyz, lobe.w, weights.x);
-//? else
-  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights.x);
-//? end
+  return Lobe(lobe.xyz, lobe.w, weights.x);                       //? if lobe_base
+  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights.x);  //? else
 }
 
 float densityOf(Lobe lobe, vec3 h) {
@@ -91,11 +83,8 @@ float densityOf(Lobe lobe, vec3 h) {
 
 // The divisor of the amounts.
 float amountsOf(float covered) {
-//? if variant_published
-  return 1.0;
-//? else
-  return covered;
-//? end
+  return 1.0;      //? if variant_published
+  return covered;  //? else
 }
 
 // A lobe as stored in the arrays.
@@ -108,9 +97,7 @@ struct StoredLobe {
 void addLobe(inout int count, StoredLobe added) {
   lobes[count] = added.lobe;
   weights[count] = added.weights;
-//? if lobes_listed
-  shares[count] = added.share;
-//? end
+  shares[count] = added.share;  //? if lobes_listed
   ++count;
 }
 
@@ -118,9 +105,7 @@ void addLobe(inout int count, StoredLobe added) {
 StoredLobe storedLobe(FacetsLobe own, vec3 mean, float q, float share, float amount) {
   float kappa = kappaOf(q);
   float base = lobeOfKappa(kappa);
-//? if not variant_published
-  amount = share;
-//? end
+  amount = share;  //? if not variant_published
 //? if sampling_texel
   // The lobe of the single texel that was drawn is that of a facet. The roughness map may have drawn another one.
   own.shortfall = q;
@@ -129,10 +114,7 @@ StoredLobe storedLobe(FacetsLobe own, vec3 mean, float q, float share, float amo
 //? end
   // The mean resultant length of the facets' normals: |r| over that of a single facet.
   float normal_length = min((1.0 - q) / max(1.0 - own.shortfall, 1e-6), 1.0);
-//? if lobe_base
-  vec4 lobe = vec4(mean, base);
-//? else
-  vec4 lobe = vec4(mean, kappa);
-//? end
+  vec4 lobe = vec4(mean, base);   //? if lobe_base
+  vec4 lobe = vec4(mean, kappa);  //? else
   return StoredLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), vec2(amount, own.parameter));
 }

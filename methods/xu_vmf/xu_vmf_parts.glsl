@@ -24,11 +24,8 @@ struct Part {
 
 // `guard`: the value of the map for `least` if it stores one; otherwise `least` is that of a facet in every texel.
 Part partOf(vec4 r, float guard, float facet_shortfall) {
-//? if roughness_variation
-  return Part(r, guard);
-//? else
-  return Part(r, r.w * facet_shortfall);
-//? end
+  return Part(r, guard);                  //? if roughness_variation
+  return Part(r, r.w * facet_shortfall);  //? else
 }
 
 //? if surface_coordinates
@@ -134,9 +131,7 @@ struct Walk {
   float facet_shortfall;
   int next;  // next part; the walk ends at `parts`
   int parts;
-//? if not several_probes
-  Probe probe;
-//? end
+  Probe probe;  //? if not several_probes
 //? if j_adaptive and thresholds_blended
   float coarse_weight, cell_weight;  // what the hemisphere leaves to coarse parts, and a coarse part to its cells
 //? end
@@ -164,11 +159,8 @@ float unityOf(Part part, int i) {
   if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
   float size = length(part.r.xyz) / part.r.w;
   float threshold = i == 0 ? option_eps0 : option_eps1;
-//? if thresholds_blended
-  return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);
-//? else
-  return size > threshold ? 1.0 : 0.0;
-//? end
+  return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);  //? if thresholds_blended
+  return size > threshold ? 1.0 : 0.0;                      //? else
 }
 //? end
 
@@ -179,9 +171,7 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) {
   walk.facet_shortfall = facet_shortfall;
   walk.next = 0;
   walk.parts = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
-//? if not several_probes
-  walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);
-//? end
+  walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);  //? if not several_probes
 //? if j_adaptive and thresholds_blended
   walk.coarse_weight = 0.0;
   walk.cell_weight = 0.0;
@@ -191,11 +181,8 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) {
 
 Part nextPart(inout Walk walk, out float weight) {
   int i = walk.next;
-//? if several_probes
-  Part part = partUnder(walk, i);
-//? else
-  Part part = partAt(walk.probe, walk.facet_shortfall, i);
-//? end
+  Part part = partUnder(walk, i);                           //? if several_probes
+  Part part = partAt(walk.probe, walk.facet_shortfall, i);  //? else
   weight = 1.0;
   ++walk.next;
 //? if j_adaptive
@@ -226,9 +213,7 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) { return Walk(f, own,
 
 Part nextPart(inout Walk walk, out float weight) {
   float guard = 0.0;
-//? if storage_fp16 and roughness_variation
-  guard = fetch(xu_vmf_whole_guard, 0, walk.footprint).r;
-//? end
+  guard = fetch(xu_vmf_whole_guard, 0, walk.footprint).r;  //? if storage_fp16 and roughness_variation
   weight = 1.0;
   ++walk.next;
   return partOf(fetch(xu_vmf_whole, walk.own, walk.footprint), guard, walk.facet_shortfall);

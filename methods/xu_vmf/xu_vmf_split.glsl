@@ -8,9 +8,7 @@ layout(location = 0) out vec4 part[layer_count];
 uniform int source;      // the layer to split
 uniform int first_part;  // the first drawn part
 layout(binding = 0) uniform sampler2DArray finest;
-//? if guard
-layout(binding = 1) uniform sampler2DArray values;
-//? end
+layout(binding = 1) uniform sampler2DArray values;  //? if guard
 
 void main() {
   vec4 sums[layer_count];
@@ -27,9 +25,7 @@ void main() {
       if (r.w == 0.0) continue;
       int own = partOfCell(cellOf(r.xyz));
       vec4 value = across[x] * down[y] * r;
-//? if guard
-      value = across[x] * down[y] * texelFetch(values, texel, 0);
-//? end
+      value = across[x] * down[y] * texelFetch(values, texel, 0);  //? if guard
       for (int i = 0; i < layer_count; ++i) {
         if (!isSumOfNext(i, layer_count)) sums[i] += own == first_part + i ? value : vec4(0.0);
       }

@@ -1,20 +1,14 @@
 // Rounds values for a map of half floats. Some drivers truncate instead, which would shorten r at every level.
 vec4 stored(vec4 value) {
-//? if storage_fp16
-  return vec4(unpackHalf2x16(packHalf2x16(value.xy)), unpackHalf2x16(packHalf2x16(value.zw)));
-//? else
-  return value;
-//? end
+  return vec4(unpackHalf2x16(packHalf2x16(value.xy)), unpackHalf2x16(packHalf2x16(value.zw)));  //? if storage_fp16
+  return value;                                                                                 //? else
 }
 
 // Whether a layer that a pass draws is a coarse part of `adaptive`'s tree. It is the sum of its two cells, which follow
 // it, and needs no lookups.
 bool isSumOfNext(int i, int layers) {
-//? if j_adaptive
-  return layers > 1 && i % 3 == 0;
-//? else
-  return false;
-//? end
+  return layers > 1 && i % 3 == 0;  //? if j_adaptive
+  return false;                     //? else
 }
 
 // The shares of finer texels in a coarse texel, which is the exact mean of its area for any size: two texels along an

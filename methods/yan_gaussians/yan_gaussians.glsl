@@ -88,11 +88,8 @@ struct Effective {
 };
 
 Effective effective(Footprints f) {
-//? if normal_variation
-  return Effective(normalize(fetchFinest(mean_normal, folded(f.normal)).xyz));
-//? else
-  return Effective(vec3(0.0, 0.0, 1.0));
-//? end
+  return Effective(normalize(fetchFinest(mean_normal, folded(f.normal)).xyz));  //? if normal_variation
+  return Effective(vec3(0.0, 0.0, 1.0));                                        //? else
 }
 
 float ndf(Effective e, vec3 h) { return elementValue(e.normal, no_spread, Query(false, h, h, h)); }
@@ -104,9 +101,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     Query q = Query(true, halfVector(wi, wo), wi, wo);
     r.specular = fresnelTerm(s.f0, wi, wo) * elementValue(e.normal, no_spread, q);
   }
-//? if diffuse
-  r.diffuse = diffuse(e.normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.normal, s, wi, wo);  //? if diffuse
   return r;
 }
 //? end

@@ -117,11 +117,8 @@ float valueOfTexel(Effective e, ivec2 at, vec2 d, Query q) {
   vec4 slopes = texelFetch(yan_jacobian, at, 0);
   countLookups(1);
   vec2 shift = e.wide ? vec2(0.0) : seed_variance * vec2(dot(e.inverse_sum.xy, d), dot(e.inverse_sum.yz, d));
-//? if roughness_intrinsic
-  vec3 spread = spreadOnDisc(e, slopes);
-//? else
-  float spread = spreadOnSphere(e, normal.xy, slopes);
-//? end
+  vec3 spread = spreadOnDisc(e, slopes);                //? if roughness_intrinsic
+  float spread = spreadOnSphere(e, normal.xy, slopes);  //? else
   if (slopes != vec4(0.0)) normal = onSphere(normal.xy + vec2(dot(slopes.xy, shift), dot(slopes.zw, shift)));
   return elementValue(normal, spread, q);
 //? else
@@ -240,8 +237,6 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo))
     r.specular = fresnelTerm(s.f0, wi, wo) * sumOver(e, Query(true, halfVector(wi, wo), wi, wo));
-//? if diffuse
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
   return r;
 }

@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::string_view directive_mark = "//? ";
 constexpr std::string_view directives =
-    "directives: if CONDITION, elif CONDITION, else, end, include FILE, module; a condition is of flags, `not`, `and`, "
-    "`or` and parentheses";
+    "directives: if CONDITION, elif CONDITION, else, end, include FILE [if CONDITION], module; at the end of a line "
+    "the "
+    "first three are for it alone; a condition is of flags, `not`, `and`, `or` and parentheses";
 
 // A line of a file, for error messages.
 struct Line {
@@ -118,6 +119,7 @@ class ShaderText::Reader {
       read_line(text.substr(0, stop));
       text.remove_prefix(std::min(stop + 1, text.size()));
     }
+    end_line_branches();
     if (branches_.empty()) return;
     line_.number = branches_.back().line;
     throw line_.bad("an `if` is not closed");
@@ -137,13 +139,33 @@ class ShaderText::Reader {
 
   void read_line(std::string_view text) {
     ++line_.number;
-    if (text.starts_with(directive_mark)) {
+    const std::size_t mark = text.starts_with("// ") ? std::string_view::npos : text.find(directive_mark);
+    if (mark == 0 || mark == std::string_view::npos) end_line_branches();
+    if (mark == 0) {
       directive(text.substr(directive_mark.size()));
-      mark_line();
-    } else if (keeping_) {
+    } else if (mark != std::string_view::npos) {
+      line_directive(text.substr(mark + directive_mark.size()));
+      text = text.substr(0, text.find_last_not_of(' ', mark - 1) + 1);
+    }
+    if (keeping_ && mark != 0) {
       to_.text_ += text;
       to_.text_ += '\n';
+    } else if (mark != std::string_view::npos) {
+      mark_line();
     }
+  }
+
+  // A condition at the end of a line is for that line alone. Lines in sequence may be the branches of one `if`.
+  void line_directive(std::string_view words) {
+    const bool is_first = words.starts_with("if ");
+    if (is_first) end_line_branches();
+    if (!is_first && (!in_lines_ || (words != "else" && !words.starts_with("elif ")))) throw not_here(words);
+    directive(words);
+    in_lines_ = true;
+  }
+
+  void end_line_branches() {
+    if (std::exchange(in_lines_, false)) directive("end");
   }
 
   void directive(std::string_view words) {
@@ -160,12 +182,18 @@ class ShaderText::Reader {
       keeping_ = branches_.back().outer;
       branches_.pop_back();
     } else if (words.starts_with("include ")) {
-      include(words.substr(8));
+      const std::size_t file_end = words.find(" if ");
+      const bool is_on = file_end == std::string_view::npos || condition(words.substr(file_end + 4));
+      include(words.substr(8, file_end - 8), keeping_ && is_on);
     } else if (words == "module" && !to_.module_.file.empty()) {
       if (keeping_) to_.include_module();
     } else {
-      throw line_.bad(fmt::format("`{}` is not a directive here", words));
+      throw not_here(words);
     }
+  }
+
+  [[nodiscard]] Error not_here(std::string_view words) const {
+    return line_.bad(fmt::format("`{}` is not a directive here", words));
   }
 
   bool condition(std::string_view text) const { return Condition(text, to_.flags_, line_).is_true(); }
@@ -178,11 +206,11 @@ class ShaderText::Reader {
     branch.taken = branch.taken || is_true;
   }
 
-  void include(std::string_view file) {
+  void include(std::string_view file, bool is_on) {
     const EmbeddedText* const shared = find_text(shared_glsl, file);
     const EmbeddedText* const own = find_text(to_.module_.folder, file);
     if (shared == nullptr && own == nullptr) throw no_text(file);
-    if (!keeping_) return;
+    if (!is_on) return;
     if (shared == nullptr) {
       to_.include_own(*own);
     } else {
@@ -205,6 +233,7 @@ class ShaderText::Reader {
   int first_line_;  // 0: lines are not numbered
   std::vector<Branch> branches_;
   bool keeping_ = true;
+  bool in_lines_ = false;  // whether the last branch is of conditions at ends of lines
 };
 
 ShaderText::ShaderText(ShaderFlags flags, ShaderModule module) : flags_(std::move(flags)), module_(std::move(module)) {

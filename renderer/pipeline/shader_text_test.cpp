@@ -55,6 +55,22 @@ TEST(ShaderText, KeepsNothingOfAPartWhoseParentIsOff) {
   EXPECT_EQ(selected(text, {{"x", false}, {"y", false}}), "d\n");
 }
 
+// A condition at the end of a line is for that line alone; lines in sequence are the branches of one `if`.
+TEST(ShaderText, KeepsSingleLines) {
+  constexpr std::string_view text =
+      "a  //? if x\nb //? elif y\n  c  // d  //? else\n// no //? directive\ne //? if y\nf\n";
+  for (int bits = 0; bits < 4; ++bits) {
+    const bool x = (bits & 1) != 0, y = (bits & 2) != 0;
+    EXPECT_EQ(selected(text, {{"x", x}, {"y", y}}), std::string(x   ? "a\n"
+                                                                : y ? "b\n"
+                                                                    : "  c  // d\n") +
+                                                        "// no //? directive\n" + (y ? "e\nf\n" : "f\n"));
+  }
+  constexpr std::string_view inner = "//? if x\na //? if y\n//? else\nb //? if y\nc //? else\n//? end\n";
+  EXPECT_EQ(selected(inner, {{"x", true}, {"y", false}}), "");
+  EXPECT_EQ(selected(inner, {{"x", false}, {"y", false}}), "c\n");
+}
+
 // `not` before `and` before `or`, and parentheses before all.
 TEST(ShaderText, ReadsConditionsByPrecedence) {
   struct Case {
@@ -107,8 +123,12 @@ TEST(ShaderText, NamesFileAndLineOfABadDirective) {
       {"//? if fresnel\n//? else\n//? else\n//? end\n", "`else` behind an `else`"},
       {"a\nb\n//? if fresnel\nc\n", "an `if` is not closed"},
       {"a\n//? include none.glsl\n", "`none.glsl` is not a shader text"},
+      {"//? if fresnel\na //? else\n//? end\n", "`else` is not a directive here"},
+      {"a //? if fresnel\nb\nc //? elif fresnel\n", "`elif fresnel` is not a directive here"},
+      {"a //? if fresnel\nb //? else\nc //? else\n", "`else` behind an `else`"},
+      {"a //? end\n", "`end` is not a directive here"},
   });
-  constexpr std::array lines{2, 2, 2, 2, 1, 1, 1, 1, 3, 3, 3, 2};
+  constexpr std::array lines{2, 2, 2, 2, 1, 1, 1, 1, 3, 3, 3, 2, 2, 3, 3, 1};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Error error = refusal(cases[i].first);
     EXPECT_EQ(error.place(), "module.glsl, line " + std::to_string(lines[i])) << cases[i].first;
@@ -124,6 +144,8 @@ TEST(ShaderText, IncludesEachFileOnceIfItIsUsed) {
   constexpr std::string_view text = "//? include second.glsl\na\n//? include first.glsl\n//? include first.glsl\n";
   EXPECT_EQ(selected(text, {{"x", true}}, folder), "two\na\none\n");
   EXPECT_EQ(selected("//? if x\n//? include first.glsl\n//? end\na\n", {{"x", false}}, folder), "a\n");
+  EXPECT_EQ(selected("//? include first.glsl if not x\na\n", {{"x", true}}, folder), "a\n");
+  EXPECT_EQ(selected("//? include first.glsl if x\na\n", {{"x", true}}, folder), "two\none\na\n");
 }
 
 TEST(ShaderText, SharedTextsAreThereForAllAndOnce) {

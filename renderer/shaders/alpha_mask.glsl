@@ -5,8 +5,6 @@ bool isCutOut() {
   vec2 uv = uv_offset_set[2].z < 0.5 ? uv0 : uv1;
   alpha *= textureLod(base_color_map, mat2(uv_linear[2].xy, uv_linear[2].zw) * uv + uv_offset_set[2].xy, 0.0).a;
 //? end
-//? if vertex_color
-  alpha *= vertex_alpha;
-//? end
+  alpha *= vertex_alpha;  //? if vertex_color
   return alpha < lobe_cutoff.y;
 }

@@ -8,16 +8,12 @@ struct AreaLight {
   vec4 share;            // x: of each of its points
 };
 layout(std140, binding = 7) uniform AreaLights { AreaLight area_lights[area_light_capacity]; };
-//? if not fixed_trips
-uniform int area_light_count;
-//? end
+uniform int area_light_count;  //? if not fixed_trips
 
 //? if area_points
 // Points of lights, each with an equal share of its light's area; w: the number of the light.
 layout(std140, binding = 8) uniform AreaPoints { vec4 area_points[area_point_capacity]; };
-//? if not fixed_trips
-uniform int area_point_count;
-//? end
+uniform int area_point_count;  //? if not fixed_trips
 //? end
 
 // Squared distance over the cosine at the light, to a point of it that is `d` away: density over solid angle of points

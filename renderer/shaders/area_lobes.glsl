@@ -118,11 +118,8 @@ vec4 ownPlane(vec3 n, vec4 a, vec4 b) {
 
 // The plane of the surface, below which light does not count.
 vec4 surfacePlane() {
-//? if horizon_open
-  return no_plane;
-//? else
-  return vec4(0.0, 0.0, 1.0, 0.0);
-//? end
+  return no_plane;                  //? if horizon_open
+  return vec4(0.0, 0.0, 1.0, 0.0);  //? else
 }
 
 // A fit from the table, about a lobe in the tangent frame.
@@ -137,11 +134,8 @@ struct AreaCosine {
 
 // The alpha of a lobe's row in the table.
 float areaAlpha(NormalLobe lobe) {
-//? if distribution_blinn_phong
-  return clamp(inversesqrt(0.5 * (lobe.sharpness + 1.0)), smallest_alpha, 1.0);
-//? else
-  return clamp(inversesqrt(0.5 * lobe.sharpness), smallest_alpha, 1.0);
-//? end
+  return clamp(inversesqrt(0.5 * (lobe.sharpness + 1.0)), smallest_alpha, 1.0);  //? if distribution_blinn_phong
+  return clamp(inversesqrt(0.5 * lobe.sharpness), smallest_alpha, 1.0);          //? else
 }
 
 // The share of a transformed cosine above the plane at `angle` from its z.
@@ -160,11 +154,8 @@ AreaCosine areaCosine(NormalLobe lobe, vec3 wo) {
   vec2 size = vec2(textureSize(area_cosines, 0).xy);
   vec2 place = vec2(min(view / widest_view, 1.0), log(alpha / smallest_alpha) / -log(smallest_alpha));
   vec2 uv = (place * (size - 1.0) + 0.5) / size;
-//? if distribution_ggx
-  float layer = lobe.tailed ? 0.0 : 2.0;
-//? else
-  const float layer = 0.0;
-//? end
+  float layer = lobe.tailed ? 0.0 : 2.0;  //? if distribution_ggx
+  const float layer = 0.0;                //? else
   countLookups(2);
   vec4 shape = textureLod(area_cosines, vec3(uv, layer), 0.0);
   vec4 energies = textureLod(area_cosines, vec3(uv, layer + 1.0), 0.0);
@@ -199,11 +190,8 @@ vec3 areaLobe(Effective e, NormalLobe lobe, AreaOutline o, vec3 f0, vec3 wo) {
   vec3 towards = fit.to_tangent * (sums.first.z < 0.0 ? -sums.first : sums.first);
   float size = length(towards);
   float geometry = size > 0.0 ? areaGeometry(e, lobe, towards / size, wo) : 1.0;
-//? if fresnel and fresnel_schlick
-  vec3 energy = f0 * (fit.energy - fit.schlick) + fit.schlick;
-//? else
-  vec3 energy = f0 * fit.energy;
-//? end
+  vec3 energy = f0 * (fit.energy - fit.schlick) + fit.schlick;  //? if fresnel and fresnel_schlick
+  vec3 energy = f0 * fit.energy;                                //? else
   return energy * (lobe.weight * share * geometry);
 }
 
@@ -232,9 +220,7 @@ vec3 areaLightLit(SurfacePoint p, AreaLight light) {
   if (dot(d, light.direction_shape.xyz) >= 0.0) return vec3(0.0);
   AreaOutline o = outlineOf(light, p.frame);
   vec3 radiance = vec3(0.0);
-//? if diffuse
-  radiance += areaDiffuse(meanNormal(p.effective), o, p.surface, p.wo);
-//? end
+  radiance += areaDiffuse(meanNormal(p.effective), o, p.surface, p.wo);  //? if diffuse
   int count = lobesHere(lobeCount(p.effective));
   int i = 0;
   do {
@@ -244,9 +230,7 @@ vec3 areaLightLit(SurfacePoint p, AreaLight light) {
     radiance += areaLobe(p.effective, lobe, o, p.surface.f0, p.wo);
   } while (++i < count);
   radiance *= light.intensity.rgb / o.area;
-//? if cast_shadow
-  radiance *= clearOfShadow(light.intensity.w, world_position, seen_facet, -d);
-//? end
+  radiance *= clearOfShadow(light.intensity.w, world_position, seen_facet, -d);  //? if cast_shadow
   return radiance;
 }
 

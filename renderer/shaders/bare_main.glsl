@@ -8,9 +8,7 @@ uniform vec3 lamp;                   // the lamp in world space
 uniform vec3 candela;                // its intensity, linear RGB
 uniform vec3 albedo;                 // diffuse albedo
 uniform vec3 f0;                     // reflectance at normal incidence
-//? if screen_derivatives
-uniform mat3 world_to_camera;        // rotates to x right, y up, z towards the viewer
-//? end
+uniform mat3 world_to_camera;        // rotates to x right, y up, z towards the viewer  //? if screen_derivatives
 layout(location = 0) out vec4 seen;  // linear radiance, and 1
 
 void main() {

@@ -10,24 +10,15 @@ Footprints footprintsAt(vec2 uv) {
   all.normal = f;
   all.roughness = f;
   all.base_color = f;
-//? if specular_variation
-  all.specular = f;
-//? end
-//? if normal_layers
-  all.layer = f;
-//? end
-//? if material_index
-  all.share = f;
-//? end
+  all.specular = f;  //? if specular_variation
+  all.layer = f;  //? if normal_layers
+  all.share = f;  //? if material_index
   return all;
 }
 
 vec3 bothTerms(Reflected r) {
-//? if diffuse
-  return r.specular + r.diffuse;
-//? else
-  return r.specular;
-//? end
+  return r.specular + r.diffuse;  //? if diffuse
+  return r.specular;              //? else
 }
 
 // f * cos of both terms. Multiply it by the light's irradiance on a plane that faces the light.
@@ -57,9 +48,7 @@ void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footp
 // The same for a light whose half vector changes over the screen: at position source.xyz (w 1) or in that direction (w
 // 0).
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo, vec4 source) {
-//? if not horizon_open
-  if (wi.z <= 0.0) return vec3(0.0);
-//? end
+  if (wi.z <= 0.0) return vec3(0.0);  //? if not horizon_open
   return bothTerms(shade(e, s, wi, wo, halfSteps(wi, source, wo)));
 }
 //? end

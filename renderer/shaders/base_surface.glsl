@@ -1,7 +1,5 @@
 // The base BRDF. The reference averages it, and `direct` evaluates it once per pixel.
-//? if normal_layers
-//? include normal_layers.glsl
-//? end
+//? include normal_layers.glsl if normal_layers
 //? if microgeometry_visibility
 //? include patch_facets.glsl
 //? else
@@ -22,21 +20,13 @@ Effective effective(Footprints f) {
 //? end
 //? if normal_layers
   vec4 layer = fetchFinest(base_layer, f.layer);
-//? if not sampling_frame
-  if (layer.w < 0.5) nothing_to_shade = true;
-//? end
+  if (layer.w < 0.5) nothing_to_shade = true;  //? if not sampling_frame
   normal = withSlopesAdded(normal, layer.xyz);
 //? end
-//? if roughness_variation
-  float lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);
-//? else
-  float lobe = lobe_cutoff.x;
-//? end
-//? if microgeometry_visibility
-  return Effective(evenFacets(normal, lobe), drawnFacets());
-//? else
-  return Effective(evenFacets(normal, lobe));
-//? end
+  float lobe = lobeFromRoughness(fetchFinest(base_roughness, f.roughness).r);  //? if roughness_variation
+  float lobe = lobe_cutoff.x;                                                  //? else
+  return Effective(evenFacets(normal, lobe), drawnFacets());  //? if microgeometry_visibility
+  return Effective(evenFacets(normal, lobe));                 //? else
 }
 
 //? if directions_drawn
@@ -65,15 +55,11 @@ vec3 drawDirection(Effective e, vec3 wo, vec3 u) {
 
 // The density of that direction over solid angle.
 float directionDensity(Effective e, vec3 wi, vec3 wo) {
-//? if microgeometry_visibility
-  if (base_has_patch > 0.5) return max(wi.z, 0.0) / pi;
-//? end
+  if (base_has_patch > 0.5) return max(wi.z, 0.0) / pi;  //? if microgeometry_visibility
   if (!halfVectorIsDefined(wi, wo)) return 0.0;
   vec3 h = halfVector(wi, wo);
   float density = drawnFacetDensity(e.facets, h) / (4.0 * max(dot(h, wo), 1e-6));
-//? if diffuse
-  density = 0.5 * density + 0.5 * max(dot(e.facets.normal, wi), 0.0) / pi;
-//? end
+  density = 0.5 * density + 0.5 * max(dot(e.facets.normal, wi), 0.0) / pi;  //? if diffuse
   return density;
 }
 //? end

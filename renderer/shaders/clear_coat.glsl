@@ -34,28 +34,16 @@ Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
   return Coat(normal, alpha2, weight, weight * coatFresnel(dot(normal, wo)), spread);
 }
 
-//? if finest_coat
-vec4 fetchCoat(sampler2D map, Footprint f) { return fetchFinest(map, f); }
-//? else
-vec4 fetchCoat(sampler2D map, Footprint f) { return fetch(map, f); }
-//? end
+vec4 fetchCoat(sampler2D map, Footprint f) { return fetchFinest(map, f); }  //? if finest_coat
+vec4 fetchCoat(sampler2D map, Footprint f) { return fetch(map, f); }        //? else
 
 Coat coatUnder(Footprints f, vec3 wo) {
-//? if coat_weight_variation
-  float weight = fetchCoat(coat_weight_map, f.coat_weight).r;
-//? else
-  float weight = coat_weight_width.x;
-//? end
-//? if coat_width_variation
-  float alpha2 = fetchCoat(coat_width_map, f.coat_width).r;
-//? else
-  float alpha2 = coat_weight_width.y;
-//? end
-//? if coat_normal_variation
-  return coatOf(fetchCoat(coat_normal_map, f.coat_normal).xyz, alpha2, weight, wo);
-//? else
-  return coatOf(vec3(0.0, 0.0, 1.0), alpha2, weight, wo);
-//? end
+  float weight = fetchCoat(coat_weight_map, f.coat_weight).r;  //? if coat_weight_variation
+  float weight = coat_weight_width.x;                          //? else
+  float alpha2 = fetchCoat(coat_width_map, f.coat_width).r;  //? if coat_width_variation
+  float alpha2 = coat_weight_width.y;                        //? else
+  return coatOf(fetchCoat(coat_normal_map, f.coat_normal).xyz, alpha2, weight, wo);  //? if coat_normal_variation
+  return coatOf(vec3(0.0, 0.0, 1.0), alpha2, weight, wo);                            //? else
 }
 
 // The weight times the Fresnel term of the normals that reflect along h. For Gaussian slopes with a lobe each, the mean

@@ -9,9 +9,7 @@ struct Surface {
 // f * cos of each term.
 struct Reflected {
   vec3 specular;
-//? if diffuse
-  vec3 diffuse;
-//? end
+  vec3 diffuse;  //? if diffuse
 };
 
 vec3 halfVector(vec3 wi, vec3 wo) {
@@ -62,9 +60,7 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 // 1 / (n.v) of Tan 2005, section 3, limited to 2 (n.h) / (v.h), the masking of a V-cavity. Without the limit it
 // diverges at grazing views.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
-//? if horizon_open
-  if (dot(n, wi) <= 0.0) return 0.0;
-//? end
+  if (dot(n, wi) <= 0.0) return 0.0;  //? if horizon_open
   float bound = 2.0 * max(dot(n, h), 0.0) / max(dot(wo, h), 1e-6);
   return min(1.0 / max(dot(n, wo), 1e-3), bound);
 }
@@ -78,9 +74,7 @@ float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
 //? else
 // f * cos = F D, used by Xu 2017 and Iwasaki 2012.
 float geometryFactor(float lobe, vec3 n, vec3 h, vec3 wi, vec3 wo) {
-//? if horizon_open
-  if (dot(n, wi) <= 0.0) return 0.0;
-//? end
+  if (dot(n, wi) <= 0.0) return 0.0;  //? if horizon_open
   return 1.0;
 }
 //? end
@@ -168,9 +162,7 @@ vec3 facetSpecular(Facets f, vec3 f0, vec3 wi, vec3 wo) {
 // 3).
 vec3 diffuse(vec3 n, Surface s, vec3 wi, vec3 wo) {
   vec3 reflected = s.albedo * (max(dot(n, wi), 0.0) / pi);
-//? if fresnel
-  reflected *= transmitted(s.f0, wi, wo);
-//? end
+  reflected *= transmitted(s.f0, wi, wo);  //? if fresnel
   return reflected;
 }
 //? end
@@ -179,8 +171,6 @@ vec3 diffuse(vec3 n, Surface s, vec3 wi, vec3 wo) {
 Reflected facetShade(Facets f, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = facetSpecular(f, s.f0, wi, wo);
-//? if diffuse
-  r.diffuse = diffuse(f.normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(f.normal, s, wi, wo);  //? if diffuse
   return r;
 }

@@ -12,27 +12,13 @@ struct Footprints {
   Footprint normal;
   Footprint roughness;
   Footprint base_color;
-//? if specular_variation
-  Footprint specular;
-//? end
-//? if surface_coordinates
-  Footprint surface;  // on textures that show each point of the surface once
-//? end
-//? if normal_layers
-  Footprint layer;
-//? end
-//? if clear_coat and coat_weight_variation
-  Footprint coat_weight;
-//? end
-//? if clear_coat and coat_width_variation
-  Footprint coat_width;
-//? end
-//? if clear_coat and coat_normal_variation
-  Footprint coat_normal;
-//? end
-//? if material_index
-  Footprint share;
-//? end
+  Footprint specular;  //? if specular_variation
+  Footprint surface;  // on textures that show each point of the surface once  //? if surface_coordinates
+  Footprint layer;  //? if normal_layers
+  Footprint coat_weight;  //? if clear_coat and coat_weight_variation
+  Footprint coat_width;  //? if clear_coat and coat_width_variation
+  Footprint coat_normal;  //? if clear_coat and coat_normal_variation
+  Footprint share;  //? if material_index
 //? if screen_derivatives
   mat3 frame_dx;  // what the tangent frame's axes change by to the pixel on the right, in those axes
   mat3 frame_dy;  // and to the one above
@@ -47,9 +33,7 @@ struct HalfSteps {
 };
 //? end
 
-//? if screen_derivatives and filter_parts
-mat2 part_edges;  // of the part of the footprint that is shaded, in pixels
-//? end
+mat2 part_edges;  // of the part of the footprint that is shaded, in pixels  //? if screen_derivatives and filter_parts
 //? if surface_coordinates or screen_derivatives
 // Rotates from the tangent frame of the shaded point to the axes of the camera: x right, y up, z towards the viewer.
 mat3 tangent_to_camera;
@@ -150,9 +134,7 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
 // As `fetch`, limited to levels up to `coarsest`. Hardware filters have no such limit, so their probes are computed
 // explicitly.
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
-//? if filter_hardware
-  if (coarsest >= any_level) return fetch(map, layer, f);
-//? end
+  if (coarsest >= any_level) return fetch(map, layer, f);  //? if filter_hardware
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
   countLookups(p.count);
   float level = min(p.level, coarsest);
@@ -180,9 +162,7 @@ vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
 //? end
 //? end
 
-//? if random_draws
-vec2 texel_draw;  // of this sample, uniform in [0, 1)
-//? end
+vec2 texel_draw;  // of this sample, uniform in [0, 1)  //? if random_draws
 
 //? if sampling_texel
 // One texel of the finest level, drawn with bilinear weights. The expectation of the shaded value is then the bilinear

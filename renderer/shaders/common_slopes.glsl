@@ -60,11 +60,8 @@ struct SlopeLobe {
 // Alpha along and across the direction of the base lobe whose round mean has a slope variance, as far as the moments do
 // not include it.
 vec2 baseAlphas(float variance) {
-//? if normal_variation and roughness_moments
-  return vec2(sqrt(2.0 * variance));
-//? else
-  return facetAlphas(lobeFromVariance(variance));
-//? end
+  return vec2(sqrt(2.0 * variance));               //? if normal_variation and roughness_moments
+  return facetAlphas(lobeFromVariance(variance));  //? else
 }
 
 // The covariance of the slopes of that lobe about a texel's own normal.
@@ -195,10 +192,7 @@ NormalLobe lobeOfRow(SlopeLobe e, LobeRow row, int i) {
   float x = row.half_count == 0 ? 0.0 : 1.9 * float(steps) / float(row.half_count);
   float share = exp(-0.5 * x * x) / (row.half_count == 0 ? 1.0 : row.half_count == 2 ? 2.6026 : 3.8622);
   float lobe = lobeFromVariance(row.across);
-//? if roughness_stretched
-  return baseNormalLobe(axis, lobe, share);
-//? else
-  return vmfNormalLobe(axis, 1.0 / row.across, share, lobe);
-//? end
+  return baseNormalLobe(axis, lobe, share);                   //? if roughness_stretched
+  return vmfNormalLobe(axis, 1.0 / row.across, share, lobe);  //? else
 }
 //? end

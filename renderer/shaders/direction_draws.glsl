@@ -38,8 +38,6 @@ vec3 lobeDirection(SurfacePoint p, vec3 u) {
 
 float lobeDirectionDensity(SurfacePoint p, vec3 wi) {
   float density = directionDensity(p.effective, wi, p.wo);
-//? if clear_coat
-  if (p.coat.share > 0.0) density = mix(density, coatDirectionDensity(p.coat, wi, p.wo), coat_draws);
-//? end
+  if (p.coat.share > 0.0) density = mix(density, coatDirectionDensity(p.coat, wi, p.wo), coat_draws);  //? if clear_coat
   return density;
 }

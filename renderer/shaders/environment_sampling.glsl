@@ -9,11 +9,8 @@
 
 // Whether light from a world direction reaches the pixel.
 bool arrives(vec3 direction) {
-//? if environment_visibility
-  return isVisible(direction);
-//? else
-  return true;
-//? end
+  return isVisible(direction);  //? if environment_visibility
+  return true;                  //? else
 }
 
 //? if environment_dense

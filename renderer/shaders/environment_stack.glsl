@@ -71,9 +71,7 @@ float visibleElevation(vec3 direction, float elevation) { return elevation; }
 // A sun that is too small for lookups and removed from the maps: a directional light with the visibility of the
 // environment.
 vec3 sunLit(SurfacePoint p, vec3 direction, vec3 irradiance) {
-//? if environment_visibility
-  if (!isVisible(direction)) return vec3(0.0);
-//? end
+  if (!isVisible(direction)) return vec3(0.0);  //? if environment_visibility
   return reflected(p, incident(direction * p.frame, irradiance, vec4(direction, 0.0)));
 }
 
@@ -90,11 +88,8 @@ vec3 sunRadiance(SurfacePoint p) {
 // The normal of the plane below which light does not count for a lobe: that of the surface or, with an open horizon, of
 // the facets of the lobe.
 vec3 horizonNormal(NormalLobe lobe) {
-//? if horizon_open
-  return lobe.normal;
-//? else
-  return vec3(0.0, 0.0, 1.0);
-//? end
+  return lobe.normal;          //? if horizon_open
+  return vec3(0.0, 0.0, 1.0);  //? else
 }
 
 // The lobe of reflected directions: mean and sharpness.
@@ -169,13 +164,9 @@ const float smith_steps = 4.0;  // of radiance_stack.hpp
 
 // Where the table includes the geometry factor of the base BRDF.
 float geometryStep(NormalLobe lobe, float alpha) {
-//? if masking_shadowing and geometry_smith
-  return smith_steps * clamp(lobe.base / alpha, 0.0, 1.0);
-//? elif masking_shadowing and geometry_tan
-  return smith_steps + 1.0;
-//? else
-  return smith_steps + 2.0;
-//? end
+  return smith_steps * clamp(lobe.base / alpha, 0.0, 1.0);  //? if masking_shadowing and geometry_smith
+  return smith_steps + 1.0;                                 //? elif masking_shadowing and geometry_tan
+  return smith_steps + 2.0;                                 //? else
 }
 
 struct TailedLobe {
@@ -243,9 +234,7 @@ vec3 partRadiance(Effective e, int i, NormalLobe lobe, TailedLobe tailed, vec4 p
   vec3 axis = cos(part.b) * tailed.mirrored + sin(part.b) * tailed.across;
   ReflectedLobe above = ReflectedLobe(axis, exp2(part.a) * 0.5 * lobe.sharpness);
   float share = lobe.weight;
-//? if not horizon_open
-  share *= cutByHorizon(above, lobe.axis, vec3(0.0, 0.0, 1.0), tailed.alpha);
-//? end
+  share *= cutByHorizon(above, lobe.axis, vec3(0.0, 0.0, 1.0), tailed.alpha);  //? if not horizon_open
 //? if environment_visibility
   float elevation = dot(horizonNormal(lobe), above.axis);
   share *= shareAbove(visibleElevation(frame * above.axis, elevation), above.sharpness) /
@@ -258,15 +247,10 @@ vec3 partRadiance(Effective e, int i, NormalLobe lobe, TailedLobe tailed, vec4 p
     energy *= coatShare(coat, halfVector(axis, wo), wo);
   } else {
 //? end
-//? if fresnel and fresnel_schlick
-    energy = part.r * f0 + part.g;
-//? else
-    energy *= f0;
-//? end
+    energy = part.r * f0 + part.g;  //? if fresnel and fresnel_schlick
+    energy *= f0;                   //? else
     energy *= ownGeometry(e, i, lobe, f0, axis, wo, above.sharpness);
-//? if clear_coat
-  }
-//? end
+  }  //? if clear_coat
   return share * energy * stackRadiance(frame * above.axis, above.sharpness);
 }
 
@@ -301,11 +285,8 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
 // The mean over a uniform hemisphere, weighted by the cosine, of the light that Schlick's term transmits. (1 - v.h)^5
 // has the mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
 vec3 meanTransmitted(vec3 f0, float cosine) {
-//? if fresnel_schlick
-  return (1.0 - f0) * (0.9999 - 0.0282 * pow(1.0 - clamp(cosine, 0.0, 1.0), 2.6));
-//? else
-  return vec3(1.0);
-//? end
+  return (1.0 - f0) * (0.9999 - 0.0282 * pow(1.0 - clamp(cosine, 0.0, 1.0), 2.6));  //? if fresnel_schlick
+  return vec3(1.0);                                                                 //? else
 }
 //? end
 
@@ -314,11 +295,8 @@ DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
   return visibleFacets(e, wo);
 //? else
   vec3 m = meanNormal(e);
-//? if horizon_open
-  return DiffuseFacets(m, vec3(1.0), false);
-//? else
-  return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);
-//? end
+  return DiffuseFacets(m, vec3(1.0), false);                               //? if horizon_open
+  return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);  //? else
 //? end
 }
 
@@ -334,23 +312,17 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
   countLookups(1);
   vec3 facing = textureLod(environment_irradiance, uv, 0.0).rgb;  // irradiance over pi
   vec3 reflected = facets.share * mix(environment_mean.rgb, facing, min(size, 1.0));
-//? if environment_visibility
-  reflected *= visibleDiffuse();
-//? end
+  reflected *= visibleDiffuse();  //? if environment_visibility
   if (facets.whole) return reflected;
   reflected *= albedo;
-//? if fresnel
-  reflected *= meanTransmitted(f0, dot(n, wo));
-//? end
+  reflected *= meanTransmitted(f0, dot(n, wo));  //? if fresnel
   return reflected;
 }
 //? end
 
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   vec3 radiance = environmentSpecular(e, s.f0, wo, frame);
-//? if environment_diffuse
-  radiance += environmentDiffuse(e, s.albedo, s.f0, wo, frame);
-//? end
+  radiance += environmentDiffuse(e, s.albedo, s.f0, wo, frame);  //? if environment_diffuse
   return radiance;
 }
 

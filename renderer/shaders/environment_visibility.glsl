@@ -15,9 +15,7 @@ float signedDistance(vec3 direction) {
 
 // Whether only its own horizon occludes the surface. Unknown for the back of double-sided surfaces.
 bool isOpen() {
-//? if double_sided
-  if (!gl_FrontFacing) return true;
-//? end
+  if (!gl_FrontFacing) return true;  //? if double_sided
   return visible_diffuse.w == 0.0;
 }
 
@@ -31,8 +29,6 @@ float visibleElevation(vec3 direction, float elevation) {
 bool isVisible(vec3 direction) { return isOpen() || signedDistance(direction) > 0.0; }
 
 vec3 visibleDiffuse() {
-//? if double_sided
-  if (!gl_FrontFacing) return vec3(1.0);
-//? end
+  if (!gl_FrontFacing) return vec3(1.0);  //? if double_sided
   return visible_diffuse.rgb;
 }

@@ -35,34 +35,18 @@ Footprints partOf(Footprints f, int i) {
 //? if shared_coordinates
   part.roughness = part.normal;
   part.base_color = part.normal;
-//? if specular_variation
-  part.specular = part.normal;
-//? end
+  part.specular = part.normal;  //? if specular_variation
 //? else
   part.roughness = onMap(f.roughness, p);
   part.base_color = onMap(f.base_color, p);
-//? if specular_variation
-  part.specular = onMap(f.specular, p);
+  part.specular = onMap(f.specular, p);  //? if specular_variation
 //? end
-//? end
-//? if surface_coordinates
-  part.surface = onMap(f.surface, p);
-//? end
-//? if normal_layers
-  part.layer = onMap(f.layer, p);
-//? end
-//? if clear_coat and coat_weight_variation
-  part.coat_weight = onMap(f.coat_weight, p);
-//? end
-//? if clear_coat and coat_width_variation
-  part.coat_width = onMap(f.coat_width, p);
-//? end
-//? if clear_coat and coat_normal_variation
-  part.coat_normal = onMap(f.coat_normal, p);
-//? end
-//? if material_index
-  part.share = onMap(f.share, p);
-//? end
+  part.surface = onMap(f.surface, p);  //? if surface_coordinates
+  part.layer = onMap(f.layer, p);  //? if normal_layers
+  part.coat_weight = onMap(f.coat_weight, p);  //? if clear_coat and coat_weight_variation
+  part.coat_width = onMap(f.coat_width, p);  //? if clear_coat and coat_width_variation
+  part.coat_normal = onMap(f.coat_normal, p);  //? if clear_coat and coat_normal_variation
+  part.share = onMap(f.share, p);  //? if material_index
 //? if screen_derivatives
   part_edges = mat2(p.dx, p.dy);
   part.frame_dx = f.frame_dx * p.dx.x + f.frame_dy * p.dx.y;

@@ -2,9 +2,7 @@
 // a bump layer, and the lobe of common_slopes.glsl over them. The flag `with_mean_normal` says whether the textures
 // include the mean normal, for a diffuse term over one map only.
 //? include common_slopes.glsl
-//? if not normal_variation or not roughness_moments
-//? include lobe_variance.glsl
-//? end
+//? include lobe_variance.glsl if not normal_variation or not roughness_moments
 
 // As `fetch`, for two textures of the same size. One loop over the probes reads both, because position, weight and level are
 // shared.
@@ -30,9 +28,7 @@ void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first
 struct FilteredSlopes {
   vec2 mean;
   mat2 spread;  // covariance
-//? if with_mean_normal and diffuse and normal_variation and not normal_layers
-  vec3 mean_normal;  // not renormalised
-//? end
+  vec3 mean_normal;  // not renormalised  //? if with_mean_normal and diffuse and normal_variation and not normal_layers
 };
 
 //? if variant_clean
@@ -56,21 +52,15 @@ FilteredSlopes filteredSlopes(Footprints f) {
   s.mean = moments.xy;
   s.spread = spreadOf(moments, rest);
 //? if with_mean_normal and diffuse and not normal_layers
-//? if variant_clean
-  s.mean_normal = rest.xyz;
-//? else
-  s.mean_normal = rest.yzw;
-//? end
+  s.mean_normal = rest.xyz;  //? if variant_clean
+  s.mean_normal = rest.yzw;  //? else
 //? end
 //? end
 //? if normal_layers
   // Slopes of independent layers add, and so do means and covariances. M = M1 + M2 + B1 B2^T + B2 B1^T minus (B1 +
   // B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), the order with the least cancellation.
-//? if variant_clean
-  moments = fetch(layer_moments, f.layer);
-//? else
-  fetchPair(layer_moments, layer_rest, f.layer, moments, rest);
-//? end
+  moments = fetch(layer_moments, f.layer);                       //? if variant_clean
+  fetchPair(layer_moments, layer_rest, f.layer, moments, rest);  //? else
   s.mean += moments.xy;
   s.spread += spreadOf(moments, rest);
 //? end
@@ -79,11 +69,8 @@ FilteredSlopes filteredSlopes(Footprints f) {
 
 // The slope variance of the base lobe that the moments do not include.
 float addedVariance(Footprints f) {
-//? if normal_variation and roughness_moments
-  return 0.0;
-//? else
-  return baseVariance(f);
-//? end
+  return 0.0;              //? if normal_variation and roughness_moments
+  return baseVariance(f);  //? else
 }
 
 // The lobe over the footprint of a pixel.

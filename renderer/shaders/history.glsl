@@ -104,8 +104,6 @@ void main() {
     history = has_old ? old : vec4(0.0);
     return;
   }
-//? if clamp_box or clamp_variance
-  if (has_old) old = limited(old, pixel);
-//? end
+  if (has_old) old = limited(old, pixel);  //? if clamp_box or clamp_variance
   history = has_old ? mix(old, newest, share) : newest;
 }

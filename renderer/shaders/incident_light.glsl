@@ -2,27 +2,19 @@
 struct Incident {
   vec3 wi;  // tangent frame
   vec3 irradiance_at_normal;
-//? if screen_derivatives
-  vec4 source;  // world space: a point (w 1) or a direction (w 0)
-//? end
+  vec4 source;  // world space: a point (w 1) or a direction (w 0)  //? if screen_derivatives
 };
 
 Incident incident(vec3 wi, vec3 irradiance_at_normal, vec4 source) {
-//? if screen_derivatives
-  return Incident(wi, irradiance_at_normal, source);
-//? else
-  return Incident(wi, irradiance_at_normal);
-//? end
+  return Incident(wi, irradiance_at_normal, source);  //? if screen_derivatives
+  return Incident(wi, irradiance_at_normal);          //? else
 }
 
 // Whether light from a direction of the tangent frame reaches the facets under the horizon rule of the scene
 // (docs/explanation/base-brdf.md, Horizon). The zero vector means no direction.
 bool reachesFacets(vec3 wi) {
-//? if horizon_open
-  return dot(wi, wi) > 0.0;
-//? else
-  return wi.z > 0.0;
-//? end
+  return dot(wi, wi) > 0.0;  //? if horizon_open
+  return wi.z > 0.0;         //? else
 }
 
 //? if point_light
@@ -30,9 +22,7 @@ Incident incidentPoint(int i, mat3 frame) {
   vec3 d = point_lights[i].position_range.xyz - world_position;
   float d2 = dot(d, d);
   float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
-//? if cast_shadow
-  attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);
-//? end
+  attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);  //? if cast_shadow
   return incident((d * inversesqrt(max(d2, 1e-24))) * frame, point_lights[i].intensity.rgb * attenuation,
                   vec4(point_lights[i].position_range.xyz, 1.0));
 }
@@ -46,9 +36,7 @@ Incident incidentSpot(int i, mat3 frame) {
   float angular =
       clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
   float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
-//? if cast_shadow
-  attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, seen_facet, -d);
-//? end
+  attenuation *= clearOfShadow(spot_lights[i].intensity.w, world_position, seen_facet, -d);  //? if cast_shadow
   return incident(to_light * frame, spot_lights[i].intensity.rgb * attenuation,
                   vec4(spot_lights[i].position_range.xyz, 1.0));
 }

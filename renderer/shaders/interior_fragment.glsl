@@ -5,9 +5,7 @@ in vec3 world_normal;
 in vec2 uv0;
 in vec2 uv1;
 flat in vec2 piece;  // numbers of chart and material
-//? if alpha_mask and vertex_color
-in float vertex_alpha;
-//? end
+in float vertex_alpha;  //? if alpha_mask and vertex_color
 
 //? if cast_shadow
 layout(location = 0) out vec4 light_shares;
@@ -22,26 +20,19 @@ uniform float grid;      // samples along a pixel's edge
 uniform vec2 map_size;   // of the normal map, texels; 0: there is none
 uniform vec2 to_centre;  // from the pixel's first sample to its centre, in samples
 //? end
-//? if orthographic
-uniform vec3 to_camera;
-//? else
-uniform vec3 camera_position;
-//? end
+uniform vec3 to_camera;        //? if orthographic
+uniform vec3 camera_position;  //? else
 
 const float least_alone = 0.99;  // share of a pixel from which one material counts as alone
 
 //? include facet_normal.glsl
-//? if alpha_mask
-//? include alpha_mask.glsl
-//? end
+//? include alpha_mask.glsl if alpha_mask
 
 //? if cast_shadow
 // If the horizon cuts light off, light from below the surface does not reach it (docs/explanation/base-brdf.md), independent of its
 // map.
 float shareOf(float first_view, vec3 facet, vec3 normal, vec3 to_light) {
-//? if not horizon_open
-  if (dot(normal, to_light) <= 0.0) return 0.0;
-//? end
+  if (dot(normal, to_light) <= 0.0) return 0.0;  //? if not horizon_open
   return clearOfShadow(first_view, world_position, facet, -to_light);
 }
 
@@ -102,14 +93,9 @@ void main() {
   const bool is_alone = true;
 //? end
 //? end
-//? if alpha_mask
-  if (isCutOut()) discard;
-//? end
-//? if orthographic
-  vec3 to_viewer = to_camera;
-//? else
-  vec3 to_viewer = normalize(camera_position - world_position);
-//? end
+  if (isCutOut()) discard;  //? if alpha_mask
+  vec3 to_viewer = to_camera;                                    //? if orthographic
+  vec3 to_viewer = normalize(camera_position - world_position);  //? else
   vec3 facet = facetNormal(along_x, along_y, to_viewer);
   vec3 normal = normalize(gl_FrontFacing ? world_normal : -world_normal);
 //? if cast_shadow

@@ -50,11 +50,8 @@ vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
 // Slopes of the round lobe of alpha 1, stretched along the axes of the facet.
 vec3 drawnBaseNormal(float lobe, vec3 n, vec2 u) {
   float left = max(1.0 - u.x, 1e-7);
-//? if distribution_ggx
-  float tangent = sqrt((1.0 - left) / left);
-//? else
-  float tangent = sqrt(-log(left));
-//? end
+  float tangent = sqrt((1.0 - left) / left);  //? if distribution_ggx
+  float tangent = sqrt(-log(left));           //? else
   float azimuth = 2.0 * pi * u.y;
   vec2 slope = facetAlphas(lobe) * tangent * vec2(cos(azimuth), sin(azimuth));
   vec2 d = anisotropy().zw;

@@ -5,11 +5,8 @@ const float stored_lobe_variance = 1.0 / 64.0;  // its unit
 
 // The inverse of stored_roughness.
 float varianceOfStored(float stored) {
-//? if roughness_mean_concentration
-  return stored_lobe_variance / max(stored, 1e-6);
-//? else
-  return stored * stored_lobe_variance;
-//? end
+  return stored_lobe_variance / max(stored, 1e-6);  //? if roughness_mean_concentration
+  return stored * stored_lobe_variance;             //? else
 }
 
 float baseVariance(Footprints f) { return varianceOfStored(fetch(lobe_variance, f.roughness).r); }

@@ -1,24 +1,16 @@
 // The mean of the unit normals under a footprint, from the texture of `bake_mean_normal`: its direction (that of the
 // surface if it is zero) and its length, at most 1.
-//? if normal_layers
-//? include normal_layers.glsl
-//? end
+//? include normal_layers.glsl if normal_layers
 
 //? include length_shortfall.glsl
 
 // For 16 bits, half a unit in the last place. The loss of 8 bits is too large to correct.
-//? if storage_fp16
-const float length_rounding = 1.0 / 2048.0;
-//? elif storage_unorm8 or storage_bc1 or storage_bc5
-const float length_rounding = 0.0;
-//? else
-const float length_rounding = rounding_of_floats;
-//? end
+const float length_rounding = 1.0 / 2048.0;        //? if storage_fp16
+const float length_rounding = 0.0;                 //? elif storage_unorm8 or storage_bc1 or storage_bc5
+const float length_rounding = rounding_of_floats;  //? else
 
 vec4 storedMeanNormal(vec3 mean) {
-//? if storage_unorm8 or storage_bc1 or storage_bc5
-  mean = 2.0 * mean - 1.0;
-//? end
+  mean = 2.0 * mean - 1.0;  //? if storage_unorm8 or storage_bc1 or storage_bc5
 //? if storage_bc5
   mean.z = sqrt(max(1.0 - dot(mean.xy, mean.xy), 0.0));  // of unit normals, of which only x and y are stored
 //? end
@@ -27,11 +19,8 @@ vec4 storedMeanNormal(vec3 mean) {
 }
 
 vec4 meanNormal(Footprints f) {
-//? if normal_variation
-  vec4 normal = storedMeanNormal(fetch(mean_normal, f.normal).xyz);
-//? else
-  vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);
-//? end
+  vec4 normal = storedMeanNormal(fetch(mean_normal, f.normal).xyz);  //? if normal_variation
+  vec4 normal = vec4(0.0, 0.0, 1.0, 1.0);                            //? else
 //? if normal_layers
   // Slopes of both layers add, and so do their variances (1 - |Na|) / |Na|: 1 / |Na| = 1 / |Na1| + 1 / |Na2| - 1.
   vec4 layer = storedMeanNormal(fetch(mean_layer, f.layer).xyz);

@@ -1,8 +1,5 @@
 // The base lobe of the mean roughness under a footprint, from the texture of bake_mean_roughness (normal_chain.hpp).
 float baseLobe(Footprints f) {
-//? if roughness_variation
-  return lobeFromRoughness(fetch(mean_roughness, f.roughness).r);
-//? else
-  return lobe_cutoff.x;
-//? end
+  return lobeFromRoughness(fetch(mean_roughness, f.roughness).r);  //? if roughness_variation
+  return lobe_cutoff.x;                                            //? else
 }

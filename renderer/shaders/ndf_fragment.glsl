@@ -8,9 +8,7 @@ uniform vec2 footprint_dx[3];
 uniform vec2 footprint_dy[3];
 
 //? module
-//? if filter_parts
-//? include footprint_parts.glsl
-//? end
+//? include footprint_parts.glsl if filter_parts
 Footprint givenFootprint(int slot) { return Footprint(footprint_uv[slot], footprint_dx[slot], footprint_dy[slot]); }
 
 void main() {

@@ -18,11 +18,8 @@ void fetchNeighbourFrames(mat3 frame, inout Footprints f) {
 
 // The half vector of a neighbour in its own frame.
 vec3 halfVectorAt(Neighbour n, vec4 source) {
-//? if orthographic
-  vec3 to_viewer = to_camera;
-//? else
-  vec3 to_viewer = normalize(camera_position - n.position);
-//? end
+  vec3 to_viewer = to_camera;                                //? if orthographic
+  vec3 to_viewer = normalize(camera_position - n.position);  //? else
   return halfVector(normalize(source.xyz - source.w * n.position), to_viewer) * n.frame;
 }
 

@@ -30,20 +30,12 @@ NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
 //? if distribution_blinn_phong
   return NormalLobe(axis, lobe + 1.0, share * (lobe + 1.0) / (lobe + 2.0), lobe, false, axis);
 //? end
-//? if distribution_vmf
-  return vmfNormalLobe(axis, lobe, share, lobe);
-//? end
-//? if distribution_beckmann
-  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false, axis);
-//? end
-//? if distribution_ggx
-  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true, axis);
-//? end
+  return vmfNormalLobe(axis, lobe, share, lobe);  //? if distribution_vmf
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false, axis);  //? if distribution_beckmann
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true, axis);  //? if distribution_ggx
 }
 
-//? if anisotropic_lobe
-//? include lobe_row.glsl
-//? end
+//? include lobe_row.glsl if anisotropic_lobe
 
 // The lobes of facets with a `share` of the footprint.
 //? if anisotropic_lobe

@@ -37,9 +37,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
     r.specular = fresnelTerm(s.f0, wi, wo) * sum;
 //? end
   }
-//? if diffuse
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
-//? end
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
   return r;
 }
 

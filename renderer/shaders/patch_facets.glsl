@@ -14,11 +14,8 @@ struct FacetDraw {
 };
 
 FacetDraw drawnFacets() {
-//? if random_draws
-  return FacetDraw(texel_draw);
-//? else
-  return FacetDraw(vec2(0.5));
-//? end
+  return FacetDraw(texel_draw);  //? if random_draws
+  return FacetDraw(vec2(0.5));   //? else
 }
 
 int patchFacet(FacetDraw draw, int k) {
@@ -89,9 +86,7 @@ vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
 Reflected patchReflectance(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
-//? if diffuse
-  r.diffuse = vec3(0.0);
-//? end
+  r.diffuse = vec3(0.0);  //? if diffuse
   float area = visibleArea(wo);
   if (area < least_visible_area) return r;
   for (int k = 0; k < facets_per_sample; ++k) {
@@ -107,15 +102,11 @@ Reflected patchReflectance(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
 //? end
     vec3 f0 = s.f0 * factor;
     r.specular += normal.w * facetSpecular(evenFacets(normal.xyz, lobe_cutoff.x), f0, wi, wo);
-//? if diffuse
-    r.diffuse += normal.w * diffuse(normal.xyz, Surface(s.albedo * diffuseFactor(paint), f0), wi, wo);
-//? end
+    r.diffuse += normal.w * diffuse(normal.xyz, Surface(s.albedo * diffuseFactor(paint), f0), wi, wo);  //? if diffuse
   }
   float scale = float(facets_per_sample) * area;
   r.specular /= scale;
-//? if diffuse
-  r.diffuse /= scale;
-//? end
+  r.diffuse /= scale;  //? if diffuse
   return r;
 }
 

@@ -3,16 +3,12 @@ in float depth;
 //? if alpha_mask
 in vec2 uv0;
 in vec2 uv1;
-//? if vertex_color
-in float vertex_alpha;
-//? end
+in float vertex_alpha;  //? if vertex_color
 
 //? include alpha_mask.glsl
 //? end
 
 void main() {
-//? if alpha_mask
-  if (isCutOut()) discard;
-//? end
+  if (isCutOut()) discard;  //? if alpha_mask
   gl_FragDepth = depth;
 }

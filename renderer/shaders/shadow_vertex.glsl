@@ -21,9 +21,7 @@ void main() {
 //? if alpha_mask
   uv0 = in_uv0;
   uv1 = in_uv1;
-//? if vertex_color
-  vertex_alpha = in_color.a;
-//? end
+  vertex_alpha = in_color.a;  //? if vertex_color
 //? end
   depth = on_map.z;
   gl_Position = vec4(2.0 * on_map.xy - on_map.w, 0.0, on_map.w);

@@ -65,9 +65,7 @@ FootprintPart partOf(Footprint f, int i) {
   vec2 dy = vec2(0.0, width);
   Footprint under = placed(f, at, dx, dy);
   vec3 texel = drawnTexel(size, under.uv, levelOfEdges(size, under.dx, under.dy), texel_draw, level_draw);
-//? if filter_stochastic_trilinear
-  texel = texelWithin(size, texel, place);
-//? end
+  texel = texelWithin(size, texel, place);  //? if filter_stochastic_trilinear
   mat2 edges = mat2(f.dx, f.dy);
   if (size == vec2(1.0) || abs(determinant(edges)) < 1e-24) return FootprintPart(at, dx, dy, under);
   Footprint normal = areaOfTexel(size, texel);

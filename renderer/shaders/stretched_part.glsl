@@ -4,20 +4,15 @@
 
 struct Part {
   vec2 mean;
-//? if anisotropic_lobe
-  mat2 shrink;
-//? else
-  vec3 shrink;    // xx, xy, yy of A: distances from the mean to those of the base lobe
-//? end
+  mat2 shrink;                                                                           //? if anisotropic_lobe
+  vec3 shrink;    // xx, xy, yy of A: distances from the mean to those of the base lobe  //? else
   float metric;   // 1 + |mean|^2
   float scale;    // share times det A, and what goes below the horizon; 0: the part is not there
   vec3 axis;
   float share;    // of the footprint
   float lobe;     // parameter of a facet's lobe
   float breadth;  // slope variance per axis about `axis`, a facet's lobe included
-//? if anisotropic_lobe
-  mat2 widths;    // squared alphas of both about `axis`
-//? end
+  mat2 widths;    // squared alphas of both about `axis`  //? if anisotropic_lobe
 };
 
 struct Direction {

@@ -5,25 +5,15 @@ in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
-//? if surface_coordinates
-in vec2 surface_uv;
-//? end
-//? if vertex_color
-in vec4 vertex_color;
-//? end
+in vec2 surface_uv;  //? if surface_coordinates
+in vec4 vertex_color;  //? if vertex_color
 
 layout(location = 0) out vec4 radiance_coverage;
 
 uniform vec3 camera_position;
-//? if surface_coordinates or screen_derivatives
-uniform mat3 world_to_camera;
-//? end
-//? if orthographic
-uniform vec3 to_camera;
-//? end
-//? if not sampling_frame
-bool nothing_to_shade = false;  // set by a module whose sample fell on an invalid texel
-//? end
+uniform mat3 world_to_camera;  //? if surface_coordinates or screen_derivatives
+uniform vec3 to_camera;  //? if orthographic
+bool nothing_to_shade = false;  // set by a module whose sample fell on an invalid texel  //? if not sampling_frame
 
 //? module
 Footprint footprintOf(vec4 linear, vec4 offset_set) {
@@ -37,40 +27,22 @@ Footprints pixelFootprints() {
 //? if shared_coordinates
   f.roughness = f.normal;
   f.base_color = f.normal;
-//? if specular_variation
-  f.specular = f.normal;
-//? end
+  f.specular = f.normal;  //? if specular_variation
 //? else
   f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);
   f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);
-//? if specular_variation
-  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
+  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);  //? if specular_variation
 //? end
-//? end
-//? if surface_coordinates
-  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
-//? end
-//? if normal_layers
-  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
-//? end
-//? if clear_coat and coat_weight_variation
-  f.coat_weight = footprintOf(coat_uv_linear[0], coat_uv_offset_set[0]);
-//? end
-//? if clear_coat and coat_width_variation
-  f.coat_width = footprintOf(coat_uv_linear[1], coat_uv_offset_set[1]);
-//? end
-//? if clear_coat and coat_normal_variation
-  f.coat_normal = footprintOf(coat_uv_linear[2], coat_uv_offset_set[2]);
-//? end
-//? if material_index
-  f.share = footprintOf(share_uv_linear, share_uv_offset_set);
-//? end
+  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));  //? if surface_coordinates
+  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);  //? if normal_layers
+  f.coat_weight = footprintOf(coat_uv_linear[0], coat_uv_offset_set[0]);  //? if clear_coat and coat_weight_variation
+  f.coat_width = footprintOf(coat_uv_linear[1], coat_uv_offset_set[1]);  //? if clear_coat and coat_width_variation
+  f.coat_normal = footprintOf(coat_uv_linear[2], coat_uv_offset_set[2]);  //? if clear_coat and coat_normal_variation
+  f.share = footprintOf(share_uv_linear, share_uv_offset_set);  //? if material_index
   return f;
 }
 
-//? if random_draws
-//? include sample_draws.glsl
-//? end
+//? include sample_draws.glsl if random_draws
 
 //? include tangent_frame.glsl
 
@@ -85,9 +57,7 @@ vec3 seen_facet;  // of the pixel
 //? include neighbour_pixels.glsl
 
 //? end
-//? if filter_parts
-//? include footprint_parts.glsl
-//? end
+//? include footprint_parts.glsl if filter_parts
 
 //? if clear_coat
 //? include clear_coat.glsl
@@ -99,23 +69,15 @@ struct SurfacePoint {
   Surface surface;
   mat3 frame;
   vec3 wo;  // tangent frame
-//? if clear_coat
-  Coat coat;
-//? end
+  Coat coat;  //? if clear_coat
 };
 
 // f * cos of both terms, and the coat over them.
 vec3 withCoat(SurfacePoint p, Reflected r, vec3 wi) {
-//? if diffuse
-  vec3 base = r.specular + r.diffuse;
-//? else
-  vec3 base = r.specular;
-//? end
-//? if clear_coat
-  return (1.0 - p.coat.share) * base + coatReflectance(p.coat, wi, p.wo);
-//? else
-  return base;
-//? end
+  vec3 base = r.specular + r.diffuse;  //? if diffuse
+  vec3 base = r.specular;              //? else
+  return (1.0 - p.coat.share) * base + coatReflectance(p.coat, wi, p.wo);  //? if clear_coat
+  return base;                                                             //? else
 }
 
 vec3 reflectance(SurfacePoint p, vec3 wi) { return withCoat(p, shade(p.effective, p.surface, wi, p.wo), wi); }
@@ -159,34 +121,20 @@ void add(Incident light) {
 }
 
 void findLight(mat3 frame) {
-//? if point_light
-  for (int i = 0; i < point_light_count; ++i) add(incidentPoint(i, frame));
-//? end
-//? if spot_light
-  for (int i = 0; i < spot_light_count; ++i) add(incidentSpot(i, frame));
-//? end
-//? if directional_light
-  for (int i = 0; i < directional_light_count; ++i) add(incidentDirectional(i, frame));
-//? end
-//? if area_points
-  for (int i = 0; i < area_point_count; ++i) add(incidentAreaPoint(i, frame));
-//? end
+  for (int i = 0; i < point_light_count; ++i) add(incidentPoint(i, frame));  //? if point_light
+  for (int i = 0; i < spot_light_count; ++i) add(incidentSpot(i, frame));  //? if spot_light
+  for (int i = 0; i < directional_light_count; ++i) add(incidentDirectional(i, frame));  //? if directional_light
+  for (int i = 0; i < area_point_count; ++i) add(incidentAreaPoint(i, frame));  //? if area_points
 }
 //? end
 
 //? if environment_light and not environment_sampled
 // Environment light, by lobes.
 vec3 environmentRadiance(SurfacePoint p) {
-//? if environment_summed
-  vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);
-//? else
-  vec3 base = environmentLit(p.effective, p.surface, p.wo, p.frame);
-//? end
-//? if clear_coat
-  return (1.0 - p.coat.share) * base + coatLit(p);
-//? else
-  return base;
-//? end
+  vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);  //? if environment_summed
+  vec3 base = environmentLit(p.effective, p.surface, p.wo, p.frame);  //? else
+  return (1.0 - p.coat.share) * base + coatLit(p);  //? if clear_coat
+  return base;                                      //? else
 }
 
 //? end
@@ -220,20 +168,11 @@ vec3 lit(SurfacePoint p) {
   } while (area_point++ < area_point_count - 1);
 //? end
 //? end
-//? if area_sampled
-  radiance += areaIntegral(p);
-//? end
-//? if area_lobes
-  radiance += areaLit(p);
-//? end
-//? if environment_sampled
-  radiance += environmentIntegral(p);
-//? elif environment_light
-  radiance += environmentRadiance(p);
-//? end
-//? if environment_suns
-  radiance += sunRadiance(p);
-//? end
+  radiance += areaIntegral(p);  //? if area_sampled
+  radiance += areaLit(p);  //? if area_lobes
+  radiance += environmentIntegral(p);  //? if environment_sampled
+  radiance += environmentRadiance(p);  //? elif environment_light
+  radiance += sunRadiance(p);  //? if environment_suns
   return radiance;
 }
 
@@ -241,24 +180,16 @@ vec3 lit(SurfacePoint p) {
 // triangle, so its value at the pixel centre is its mean over the pixel.
 vec4 baseColor(Footprints f) {
   vec4 color = base_color_factor;
-//? if base_color_variation
-  color *= fetch(base_color_map, f.base_color);
-//? end
-//? if vertex_color
-  color *= vertex_color;
-//? end
+  color *= fetch(base_color_map, f.base_color);  //? if base_color_variation
+  color *= vertex_color;  //? if vertex_color
   return color;
 }
 
 Surface surfaceUnder(Footprints f, vec3 base_color) {
   float metallic = dielectric_specular_metallic.w;
-//? if metallic_variation
-  metallic = fetch(metallic_map, f.roughness).r;
-//? end
+  metallic = fetch(metallic_map, f.roughness).r;  //? if metallic_variation
   vec3 dielectric_specular = dielectric_specular_metallic.rgb;
-//? if specular_variation
-  dielectric_specular *= fetch(specular_map, f.specular).rgb;
-//? end
+  dielectric_specular *= fetch(specular_map, f.specular).rgb;  //? if specular_variation
   return Surface(base_color * (1.0 - metallic), mix(dielectric_specular, base_color, metallic));
 }
 
@@ -282,21 +213,15 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
   float share = fetch(material_share, f.share).r;
   if (share <= 0.0) return vec3(0.0);
 //? end
-//? if unlit and material_index
-  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;
-//? elif unlit
-  if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;
-//? end
+  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;  //? if unlit and material_index
+  if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;          //? elif unlit
 //? if clear_coat
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo, coatUnder(f, wo));
 //? else
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo);
 //? end
-//? if material_index
-  return share * lit(p);
-//? else
-  return lit(p);
-//? end
+  return share * lit(p);  //? if material_index
+  return lit(p);          //? else
 }
 
 // The mean over the footprint of the pixel.
@@ -343,31 +268,15 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
-//? if double_sided
-  mat3 frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);
-//? else
-  mat3 frame = tangentFrame(world_normal, world_tangent);
-//? end
-//? if screen_derivatives
-  fetchNeighbourFrames(frame, f);
-//? end
-//? if random_draws
-  drawPoint();
-//? end
-//? if alpha_mask
-  if (meanAlpha(f) < lobe_cutoff.y) discard;
-//? end
-//? if surface_coordinates or screen_derivatives
-  tangent_to_camera = world_to_camera * frame;
-//? end
-//? if orthographic
-  vec3 to_viewer = to_camera;
-//? else
-  vec3 to_viewer = normalize(camera_position - world_position);
-//? end
-//? if cast_shadow
-  seen_facet = facetNormal(along_x, along_y, to_viewer);
-//? end
+  mat3 frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);  //? if double_sided
+  mat3 frame = tangentFrame(world_normal, world_tangent);                                   //? else
+  fetchNeighbourFrames(frame, f);  //? if screen_derivatives
+  drawPoint();  //? if random_draws
+  if (meanAlpha(f) < lobe_cutoff.y) discard;  //? if alpha_mask
+  tangent_to_camera = world_to_camera * frame;  //? if surface_coordinates or screen_derivatives
+  vec3 to_viewer = to_camera;                                    //? if orthographic
+  vec3 to_viewer = normalize(camera_position - world_position);  //? else
+  seen_facet = facetNormal(along_x, along_y, to_viewer);  //? if cast_shadow
 //? if sampling_texel
   vec4 mean = meanOverTexels(f, frame, to_viewer * frame);
   vec3 radiance = mean.rgb;
@@ -381,14 +290,8 @@ void main() {
   if (nothing_to_shade) radiance = vec3(0.0);
 //? end
 //? end
-//? if counting_trips
-  radiance = vec3(meanTrips(probe_trips), meanTrips(lobe_trips), meanTrips(walk_trips));
-//? elif counting
-  radiance = vec3(lookups, lobe_evaluations, finest_area);
-//? end
-//? if material_index
-  radiance_coverage = vec4(radiance, share_uv_offset_set.w + coverage - 1.0);
-//? else
-  radiance_coverage = vec4(radiance, coverage);
-//? end
+  radiance = vec3(meanTrips(probe_trips), meanTrips(lobe_trips), meanTrips(walk_trips));  //? if counting_trips
+  radiance = vec3(lookups, lobe_evaluations, finest_area);                                //? elif counting
+  radiance_coverage = vec4(radiance, share_uv_offset_set.w + coverage - 1.0);  //? if material_index
+  radiance_coverage = vec4(radiance, coverage);                                //? else
 }

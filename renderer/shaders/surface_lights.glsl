@@ -7,9 +7,7 @@ struct PointLight {
   vec4 intensity;       // w: the light's first shadow map
 };
 layout(std140, binding = 2) uniform PointLights { PointLight point_lights[point_light_capacity]; };
-//? if not fixed_trips
-uniform int point_light_count;
-//? end
+uniform int point_light_count;  //? if not fixed_trips
 //? end
 //? if spot_light
 struct SpotLight {
@@ -19,9 +17,7 @@ struct SpotLight {
   vec4 cone;  // scale and offset of KHR_lights_punctual's angular attenuation
 };
 layout(std140, binding = 3) uniform SpotLights { SpotLight spot_lights[spot_light_capacity]; };
-//? if not fixed_trips
-uniform int spot_light_count;
-//? end
+uniform int spot_light_count;  //? if not fixed_trips
 //? end
 //? if directional_light
 struct DirectionalLight {
@@ -29,9 +25,7 @@ struct DirectionalLight {
   vec4 illuminance;  // w: as above
 };
 layout(std140, binding = 4) uniform DirectionalLights { DirectionalLight directional_lights[directional_light_capacity]; };
-//? if not fixed_trips
-uniform int directional_light_count;
-//? end
+uniform int directional_light_count;  //? if not fixed_trips
 //? end
 
 //? if area_light

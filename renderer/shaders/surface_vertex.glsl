@@ -4,16 +4,12 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
-//? if surface_coordinates
-layout(location = 5) in vec2 in_surface;
-//? end
+layout(location = 5) in vec2 in_surface;  //? if surface_coordinates
 //? if environment_visibility
 layout(location = 6) in vec4 in_visibility_weights[4];
 layout(location = 10) in vec4 in_visible_diffuse;
 //? end
-//? if vertex_color
-layout(location = 11) in vec4 in_color;
-//? end
+layout(location = 11) in vec4 in_color;  //? if vertex_color
 
 uniform mat4 world_to_clip;
 
@@ -22,16 +18,12 @@ out vec3 world_normal;
 out vec4 world_tangent;
 out vec2 uv0;
 out vec2 uv1;
-//? if surface_coordinates
-out vec2 surface_uv;
-//? end
+out vec2 surface_uv;  //? if surface_coordinates
 //? if environment_visibility
 out vec4 visibility_weights[4];
 out vec4 visible_diffuse;
 //? end
-//? if vertex_color
-out vec4 vertex_color;
-//? end
+out vec4 vertex_color;  //? if vertex_color
 
 void main() {
   world_position = in_position;
@@ -39,15 +31,11 @@ void main() {
   world_tangent = in_tangent;
   uv0 = in_uv0;
   uv1 = in_uv1;
-//? if surface_coordinates
-  surface_uv = in_surface;
-//? end
+  surface_uv = in_surface;  //? if surface_coordinates
 //? if environment_visibility
   visibility_weights = in_visibility_weights;
   visible_diffuse = in_visible_diffuse;
 //? end
-//? if vertex_color
-  vertex_color = in_color;
-//? end
+  vertex_color = in_color;  //? if vertex_color
   gl_Position = world_to_clip * vec4(in_position, 1.0);
 }

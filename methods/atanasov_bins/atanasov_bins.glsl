@@ -170,19 +170,9 @@ DrawnTexel drawnTexel(Effective e, int i) { return DrawnTexel(e.code, e.variance
 //? end
 //? end
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r;
-  r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo)) {
-    float value = meanValue(e, queryFor(true, halfVector(wi, wo), wi, wo));
-    r.specular = fresnelTerm(s.f0, wi, wo) * value;
-  }
-//? if diffuse
-  // The dot product with the mean normal is the mean over the facets while all of them face the light.
-  r.diffuse = diffuse(meanNormal(e), s, wi, wo);
-//? end
-  return r;
-}
+float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) { return meanValue(e, queryFor(true, h, wi, wo)); }
+
+//? include density_module.glsl
 
 float ndf(Effective e, vec3 h) { return meanValue(e, queryFor(false, h, h, h)); }
 

@@ -9,6 +9,7 @@ struct Effective {
   float drawn;     // the share of drawn texels that have a normal  //? if lobes_listed
 };
 
+// Texels, or cells of the square, row by row.
 struct TexelBox {
   ivec2 first;
   int across;

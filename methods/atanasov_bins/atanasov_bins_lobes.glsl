@@ -74,28 +74,16 @@ vec3 centreOf(Disc disc, ivec2 cell) { return squareToHemisphere((vec2(cell) + 0
 
 bool isIn(Disc disc, ivec2 cell) { return oneMinusDot(centreOf(disc, cell), disc.centre) <= disc.limit; }
 
-// The cells of the square that can contain bins of a disc.
-struct CellBlock {
-  ivec2 lower;
-  int across;
-  int count;
-};
-
-// Lengths grow by at most 1 / (sqrt(2) cos(t / 2)) on the disc of radius sqrt(1 - cos t), and from there to the square
+// The cells of the square that can contain bins of a disc. Lengths grow by at most 1 / (sqrt(2) cos(t / 2)) on the disc of radius sqrt(1 - cos t), and from there to the square
 // by at most sqrt(1 + (4 / pi)^2) / 2.
-CellBlock cellsOf(Disc disc) {
+TexelBox cellsOf(Disc disc) {
   float angle = 2.0 * asin(sqrt(0.5 * disc.limit));
   float rim = min(acos(clamp(disc.centre.z, -1.0, 1.0)) + angle, 0.5 * pi);
   float cells = disc.across * angle * 0.8096 / (sqrt(2.0) * cos(0.5 * rim));
   vec2 middle = hemisphereToSquare(disc.centre) * disc.across;
   ivec2 lower = ivec2(max(floor(middle - cells), 0.0));
   ivec2 sides = ivec2(min(floor(middle + cells), disc.across - 1.0)) - lower + 1;
-  return CellBlock(lower, sides.x, sides.x * sides.y);
-}
-
-ivec2 cellIn(CellBlock block, int i) {
-  int row = int((float(i) + 0.5) / float(block.across));
-  return block.lower + ivec2(i - row * block.across, row);
+  return TexelBox(lower, sides.x, sides.x * sides.y);
 }
 
 // The number of walked lists: about the bins of the discs.
@@ -109,22 +97,17 @@ float listCount(Effective e, Query q, float rounds) {
   return clamp(count, 1.0, bins_list_count);
 }
 
-// The mean rounding of the packed normals of a list, which turns narrow lobes.
-vec2 listRounding(int list) {
+// A value of a list, in rows whose length is a power of two.
+vec2 listValue(sampler2D values, int list) {
   countLookups(1);
-  int columns = textureSize(bins_roundings, 0).x;
-  return texelFetch(bins_roundings, ivec2(list & (columns - 1), list >> findMSB(columns)), 0).rg;
+  int columns = textureSize(values, 0).x;
+  return texelFetch(values, ivec2(list & (columns - 1), list >> findMSB(columns)), 0).rg;
 }
 
 // The mean slope variance of the texels of a list.
 float listWidth(int list) {
-//? if roughness_lobe and roughness_variation
-  countLookups(1);
-  int columns = textureSize(bins_widths, 0).x;
-  return texelFetch(bins_widths, ivec2(list & (columns - 1), list >> findMSB(columns)), 0).r;
-//? else
-  return 0.0;
-//? end
+  return listValue(bins_widths, list).r;  //? if roughness_lobe and roughness_variation
+  return 0.0;                             //? else
 }
 
 // The value of a list: one lobe about the mean normal of its texels under the footprint, widened by their variance.
@@ -132,7 +115,8 @@ float listWidth(int list) {
 float valueOfList(int list, ListBin bin, ListSum sum, Effective e, Query q) {
   vec2 mean = sum.offset / sum.area;
   vec2 variance = max(sum.squares / sum.area - mean * mean, 0.0);
-  vec2 point = (bin.middle + mean) / bin.across + listRounding(list);
+  // Plus the mean rounding of the packed normals, which turns narrow lobes.
+  vec2 point = (bin.middle + mean) / bin.across + listValue(bins_roundings, list);
   float half_bin = 0.5 / bin.across;
   vec3 normal = squareToHemisphere(point);
   vec3 along_x = squareToHemisphere(point + vec2(half_bin, 0.0)) - normal;
@@ -211,11 +195,11 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
   for (int d = 0; d < discCount(); ++d) {
     ++discs;
     Disc disc = discOf(d, varianceOfLists(e), q.h, mostLists(rounds));
-    CellBlock block = cellsOf(disc);
+    TexelBox block = cellsOf(disc);
     int seen = 0;
     for (int i = 0; i < block.count && count < most_found; ++i) {
       ++seen;
-      ivec2 cell = cellIn(block, i);
+      ivec2 cell = texelIn(block, i);
       int list = listInCell(d, disc, cell, e, q, rounds);
       if (list >= 0) found[count++] = uvec2(list, cell.x | cell.y << 11 | d << 22);
     }

@@ -23,12 +23,3 @@ Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float varian
 }
 
 float partDensity(Part p, Direction at) { return p.share <= 0.0 ? 0.0 : p.share * slopeDensity(p.slopes, at.h); }
-
-//? if lobes_listed and anisotropic_lobe
-// Lobe k of the row that stands for a part under an environment.
-NormalLobe rowLobe(Part part, int k) {
-  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);
-  lobe.base = part.lobe;
-  return lobe;
-}
-//? end

@@ -141,17 +141,8 @@ NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); 
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
 
-// By the same points as meanLitCosine.
 vec3 meanNormal(Effective e) {
-  vec3 sum = vec3(0.0);
-//? if diffuse
-  for (int i = -1; i <= 1; ++i) {
-    for (int j = -1; j <= 1; ++j) {
-      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0);
-      sum += weight / 36.0 * normalOfSlope(e.lobe.mean + e.root * (1.7320508 * vec2(i, j)));
-    }
-  }
-//? end
-  return sum;
+  return meanOfSlopes(e.lobe.mean, e.root);  //? if diffuse
+  return vec3(0.0);                          //? else
 }
 //? end

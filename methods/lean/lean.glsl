@@ -16,22 +16,6 @@ struct Effective {
   LobeRow row;  //? if lobes_listed
 };
 
-//? if diffuse and normal_layers
-// The mean of the unit normals of both layers together. No texture stores it, so it is integrated over the distribution of
-// their slopes by 3 x 3 Gauss-Hermite points.
-vec3 meanNormal(SlopeLobe lobe) {
-  mat2 root = covarianceRoot(lobe.spread);
-  vec3 sum = vec3(0.0);
-  for (int i = -1; i <= 1; ++i) {
-    for (int j = -1; j <= 1; ++j) {
-      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0) / 36.0;
-      sum += weight * normalOfSlope(lobe.mean + root * (1.7320508 * vec2(i, j)));
-    }
-  }
-  return sum;
-}
-//? end
-
 Effective effective(Footprints f) {
   Effective e;
   FilteredSlopes slopes = filteredSlopes(f);
@@ -39,7 +23,7 @@ Effective effective(Footprints f) {
   e.round_lobe = lobeFromVariance(e.lobe.breadth);
   e.row = lobeRow(e.lobe);  //? if lobes_listed
   e.mean_normal = vec3(0.0, 0.0, 1.0);
-  e.mean_normal = meanNormal(e.lobe);  //? if diffuse and normal_layers
+  e.mean_normal = meanOfSlopes(e.lobe.mean, covarianceRoot(e.lobe.spread));  //? if diffuse and normal_layers
   e.mean_normal = slopes.mean_normal;  //? elif diffuse and normal_variation
   return e;
 }
@@ -52,25 +36,16 @@ float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
   return geometryFactor(e.round_lobe, e.lobe.axis, h, wi, wo);                    //? else
 }
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r;
-  r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo)) {
-    vec3 h = halfVector(wi, wo);
-    r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
-  }
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
-  return r;
-}
+float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) { return ndf(e, h) * factor(e, h, wi, wo); }
+
+vec3 meanNormal(Effective e) { return e.mean_normal; }
+
+//? include density_module.glsl
 
 //? if lobes_listed
 int lobeCount(Effective e) { return 2 * e.row.half_count + 1; }
 
 NormalLobe normalLobe(Effective e, int i) { return lobeOfRow(e.lobe, e.row, i); }
 
-float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return factor(e, h, wi, wo);
-}
-
-vec3 meanNormal(Effective e) { return e.mean_normal; }
+float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
 //? end

@@ -130,34 +130,16 @@ float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) {
   return e.lobe_share * sum + tabulatedDensity(e, h) * baseGeometry(e.lobe, facing, h, wi, wo);
 }
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r;
-  r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo))
-    r.specular = fresnelTerm(s.f0, wi, wo) * reflectedDensity(e, halfVector(wi, wo), wi, wo);
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
-  return r;
-}
+vec3 meanNormal(Effective e) { return e.mean_normal; }
 
-//? if lobes_listed and anisotropic_lobe
-int lobeCount(Effective e) { return parts * row_count; }
-
-NormalLobe normalLobe(Effective e, int i) { return rowLobe(surrounded[i / row_count], i % row_count); }
-//? elif lobes_listed
-int lobeCount(Effective e) { return parts; }
-
-// A round lobe with the same mean slope variance.
-NormalLobe normalLobe(Effective e, int i) {
-  NormalLobe lobe = baseNormalLobe(surrounded[i].axis, lobeFromVariance(surrounded[i].breadth), surrounded[i].share);
-  lobe.base = surrounded[i].lobe;
-  return lobe;
-}
-//? end
+//? include density_module.glsl
 
 //? if lobes_listed
+int lobeCount(Effective e) { return parts * lobes_per_part; }
+
+NormalLobe normalLobe(Effective e, int i) { return partLobe(surrounded[i / lobes_per_part], i % lobes_per_part); }
+
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
   return baseGeometry(lobe.base, lobe.normal, h, wi, wo);
 }
-
-vec3 meanNormal(Effective e) { return e.mean_normal; }
 //? end

@@ -29,16 +29,11 @@ float factor(Effective e, vec3 h, vec3 wi, vec3 wo) {
   return stretchedGeometry(squaredAlphas(e), e.round_lobe, e.normal, h, wi, wo);
 }
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r;
-  r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo)) {
-    vec3 h = halfVector(wi, wo);
-    r.specular = fresnelTerm(s.f0, wi, wo) * (ndf(e, h) * factor(e, h, wi, wo));
-  }
-  r.diffuse = diffuse(e.normal, s, wi, wo);  //? if diffuse
-  return r;
-}
+float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) { return ndf(e, h) * factor(e, h, wi, wo); }
+
+vec3 meanNormal(Effective e) { return e.normal; }
+
+//? include density_module.glsl
 
 //? if lobes_listed
 //? include lobe_row.glsl
@@ -47,6 +42,4 @@ int lobeCount(Effective e) { return row_count; }
 NormalLobe normalLobe(Effective e, int i) { return lobeOfWidths(squaredAlphas(e), e.normal, i, 1.0); }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
-
-vec3 meanNormal(Effective e) { return e.normal; }
 //? end

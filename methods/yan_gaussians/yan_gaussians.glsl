@@ -94,14 +94,11 @@ Effective effective(Footprints f) {
 
 float ndf(Effective e, vec3 h) { return elementValue(e.normal, no_spread, Query(false, h, h, h)); }
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r;
-  r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo)) {
-    Query q = Query(true, halfVector(wi, wo), wi, wo);
-    r.specular = fresnelTerm(s.f0, wi, wo) * elementValue(e.normal, no_spread, q);
-  }
-  r.diffuse = diffuse(e.normal, s, wi, wo);  //? if diffuse
-  return r;
+float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) {
+  return elementValue(e.normal, no_spread, Query(true, h, wi, wo));
 }
+
+vec3 meanNormal(Effective e) { return e.normal; }
 //? end
+
+//? include density_module.glsl

@@ -232,11 +232,6 @@ float sumOver(Effective e, Query q) {
 
 float ndf(Effective e, vec3 h) { return sumOver(e, Query(false, h, h, h)); }
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
-  Reflected r;
-  r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo))
-    r.specular = fresnelTerm(s.f0, wi, wo) * sumOver(e, Query(true, halfVector(wi, wo), wi, wo));
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
-  return r;
-}
+float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) { return sumOver(e, Query(true, h, wi, wo)); }
+
+vec3 meanNormal(Effective e) { return e.mean_normal; }

@@ -57,8 +57,7 @@ void addEdge(inout AreaSums sums, vec3 centre, vec3 a, vec3 b, mat3 to_cosine, b
 // The height of a point above a plane through the pixel; w 1: no plane.
 float aboveArea(vec4 plane, vec3 p) { return dot(plane.xyz, p) + plane.w; }
 
-// Sums over the outline of the part above all planes: the clipped edges of the light, and for each plane the line on
-// which it cuts the light, clipped by the other planes.
+// Sums over the edges of the light above all planes, and over the lines on which the planes cut it.
 AreaSums areaSums(AreaOutline o, vec4 planes[3], mat3 to_cosine, bool has_wider) {
   AreaSums sums = AreaSums(vec3(0.0), vec3(0.0));
   vec3 leaves[3], enters[3];

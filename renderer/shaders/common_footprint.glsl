@@ -39,8 +39,7 @@ mat2 part_edges;  // of the part of the footprint that is shaded, in pixels  //?
 mat3 tangent_to_camera;
 //? end
 
-// The size of a mip level by the rule of OpenGL. Mesa's llvmpipe evaluates `textureSize` with one level for eight
-// pixels, even if neighbours need different levels.
+// The size of a mip level. llvmpipe evaluates `textureSize` with one level for eight pixels, even if neighbours differ.
 vec2 levelSize(ivec2 finest, int level) { return vec2(max(finest >> level, ivec2(1))); }
 
 // Count texture lookups and lobe evaluations per pixel, on request. Modules with lookups or lobes of their own call
@@ -58,9 +57,8 @@ void countLobes(int count) {}
 void countFinest(Footprint f) {}
 //? end
 
-// The numbers of rounds of the loops that depend on the pixel. Programs whose cost a GPU's compiler estimates have
-// constants instead, because the compiler must unroll these loops to know their cost (docs/explanation/gpu-cost.md). A program that
-// counts rounds writes their means over the loops of a pixel.
+// The rounds of loops that depend on the pixel: constants in programs whose cost is estimated, because compilers must
+// unroll them (docs/explanation/gpu-cost.md). A counting program writes their means.
 //? if fixed_trips
 int probesHere(int count) { return fixed_probes; }
 int lobesHere(int count) { return fixed_lobes; }
@@ -131,8 +129,7 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
 //? end
 
 //? if texture_arrays
-// As `fetch`, limited to levels up to `coarsest`. Hardware filters have no such limit, so their probes are computed
-// explicitly.
+// As `fetch`, limited to levels up to `coarsest`, which hardware filters cannot be.
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
   if (coarsest >= any_level) return fetch(map, layer, f);  //? if filter_hardware
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);

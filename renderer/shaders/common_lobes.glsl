@@ -1,7 +1,6 @@
-// The normal distributions of the base BRDF as densities over solid angle; the projected area of microfacet
-// distributions integrates to one. The lobe parameter is the exponent (blinn_phong), alpha (beckmann, ggx) or kappa
-// (vmf).
-// lobeEnergy is the plain integral over solid angle.
+// The normal distributions as densities over solid angle; the projected area of microfacet distributions integrates to
+// one. The lobe parameter is the exponent (blinn_phong), alpha (beckmann, ggx) or kappa (vmf). lobeEnergy is the plain
+// integral.
 const float pi = 3.14159265358979;
 
 // The narrowest lobe: its peak is finite in 32 bits, also times 1e3 of light.

@@ -1,12 +1,11 @@
-// Slope statistics, b = -n_xy / n_z with mean B and covariance S, and the lobe over them, for methods that store slope
-// moments. Usage: `//? include common_slopes.glsl`. The option `roughness` is that of renderer/bake/slope_moments.hpp.
+// Slope statistics, b = -n_xy / n_z with mean B and covariance S, and the lobe over them. The option `roughness` is
+// that of renderer/bake/slope_moments.hpp.
 
 const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
 
 vec3 normalOfSlope(vec2 slope) { return normalize(vec3(-slope, 1.0)); }
 
-// M - B B^T for second moments M = (xx, xy, yy), without a negative eigenvalue: rounding can make small ones of either
-// sign where normals agree.
+// M - B B^T for second moments M = (xx, xy, yy), without the negative eigenvalues of rounding.
 mat2 slopeCovariance(vec2 mean, vec3 second) {
   vec3 c = second - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
   vec2 deviator = vec2(0.5 * (c.x - c.z), c.y);
@@ -31,6 +30,18 @@ float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] *
 mat2 covarianceRoot(mat2 c) {
   float s = sqrt(determinantOfCovariance(c));
   return (c + mat2(s)) / max(sqrt(c[0][0] + c[1][1] + 2.0 * s), 1e-12);
+}
+
+// The mean of the unit normals of Gaussian slopes, by 3 x 3 Gauss-Hermite points. root: of their covariance.
+vec3 meanOfSlopes(vec2 mean, mat2 root) {
+  vec3 sum = vec3(0.0);
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      float weight = (i == 0 ? 4.0 : 1.0) * (j == 0 ? 4.0 : 1.0) / 36.0;
+      sum += weight * normalOfSlope(mean + root * (1.7320508 * vec2(i, j)));
+    }
+  }
+  return sum;
 }
 //? end
 
@@ -119,8 +130,7 @@ float slopeDensity(SlopeLobe e, vec3 h) {
   return baseDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
 }
 //? else
-// A Gaussian over slopes with covariance S + v (Olano and Baker 2010); only the slope variance v of the base lobe
-// enters.
+// A Gaussian over slopes with covariance S + v (Olano and Baker 2010), v the slope variance of the base lobe.
 SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
   float slope2 = dot(mean, mean);
   float q = sqrt(1.0 + slope2);
@@ -153,9 +163,8 @@ float slopeDensity(SlopeLobe e, vec3 h) {
 //? end
 
 //? if lobes_listed
-// Splits an elongated lobe into a row of round ones, for environment light. All have the narrow width of the lobe,
-// positions along its long axis, Gaussian weights and the same total variance. Five or seven at even steps up to 1.9
-// standard deviations; lobes less than 1.3 times as long as wide stay one.
+// Splits an elongated lobe into a row of round ones along its long axis, for environment light: Gaussian weights and
+// the same total variance. Five or seven up to 1.9 deviations; one if less than 1.3 times as long as wide.
 struct LobeRow {
   int half_count;   // lobes to each side of the middle one
   float across;     // slope variance per axis about `axis` of each lobe

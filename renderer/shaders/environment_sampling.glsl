@@ -1,7 +1,6 @@
-// Environment light for the reference. Each sample integrates the environment itself, with directions drawn from its
-// texels and from the lobe of the module, weighted by the balance heuristic (Veach and Guibas 1995). With
-// `environment_dense`, every sample evaluates all directional lights instead (Iwasaki et al. 2012). Both agree if no
-// lobe is narrower than the cell of a light.
+// Environment light for the reference: directions from its texels and from the lobe of the module, weighted by the
+// balance heuristic (Veach and Guibas 1995). With `environment_dense`, all directional lights instead (Iwasaki et al.
+// 2012). Both agree if no lobe is narrower than the cell of a light.
 //? if environment_visibility
 //? include octahedral.glsl
 //? include environment_visibility.glsl
@@ -24,8 +23,7 @@ vec3 environmentIntegral(SurfacePoint p) {
     if (!reachesFacets(wi) || !arrives(direction)) continue;
     radiance += reflectance(p, wi) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
   }
-  // llvmpipe ends loops after 65535 iterations per pixel, including those within `reflectance`. A partial sum would be
-  // wrong.
+  // llvmpipe ends loops after 65535 iterations per pixel; a partial sum would be wrong.
   if (i < count) return vec3(uintBitsToFloat(0x7fc00000u));
   return radiance;
 }
@@ -42,9 +40,8 @@ struct DrawnDirection {
 
 float azimuthOf(float column) { return 2.0 * pi * (column / environment_size.x - 0.5) - environment_size.z; }
 
-// Finds the entry that contains u in a distribution over `count` entries. A guide table gives the start (Chen and Asau
-// 1974), and entries store cumulative sums. On return, u is its position within the entry, 0 to 1. `at` and `step`
-// address the table.
+// Finds the entry that contains u among `count` cumulative sums, from the start of a guide table (Chen and Asau 1974).
+// On return, u is its position within the entry, 0 to 1. `at` and `step` address the table.
 int drawnEntry(ivec2 at, ivec2 step, int count, inout float u) {
   int entry = int(texelFetch(environment_sums, at + step * min(int(u * float(count)), count - 1), 0).g);
   float below = entry > 0 ? texelFetch(environment_sums, at + step * (entry - 1), 0).r : 0.0;
@@ -58,8 +55,7 @@ int drawnEntry(ivec2 at, ivec2 step, int count, inout float u) {
   return entry;
 }
 
-// Draws a row, a texel of it and a point in the texel, uniform in solid angle. Monotonic in both numbers, so that
-// well-distributed points stay well distributed over the sky.
+// Draws a row, a texel of it and a point in it, monotonic in both numbers, so that well-distributed points stay so.
 DrawnDirection drawFromEnvironment(vec2 u) {
   ivec2 size = ivec2(environment_size.xy);
   int row = drawnEntry(ivec2(size.x, 0), ivec2(0, 1), size.y, u.y);

@@ -18,10 +18,9 @@ vec3 stackMap(int map, vec2 uv) {
   return textureLod(environment_stack, vec3(borderedUv(uv, size), map & 1), float(level)).rgb;
 }
 
-// The mean of the environment over a vMF lobe. The sharpness halves from map to map. Between two maps the mean is
-// interpolated linearly in the logarithm of the sharpness. The exact relation is linear in 1 / sharpness for smooth
-// environments and in the sharpness for a lamp; the error is below 6%. Beyond the last map it approaches the mean over
-// all directions as the sharpness goes to 0.
+// The mean of the environment over a vMF lobe. The sharpness halves from map to map; between two maps it is linear in
+// the logarithm of the sharpness, with an error below 6%. Beyond the last map it approaches the mean over all
+// directions.
 vec3 stackRadiance(vec3 axis, float sharpness) {
   vec2 uv = octahedral(axis);
   float finest = environment_stack_range.x;
@@ -46,8 +45,7 @@ struct VisibleLobe {
   float area;  // mean of max(h.wo, 0)
 };
 
-// In the tangent plane at the axis the lobe is a Gaussian and (h.wo) is linear: these are moments of a truncated
-// Gaussian. Far from grazing views the area is (axis.wo) and the axis is that of the lobe.
+// In the tangent plane at the axis the lobe is a Gaussian and (h.wo) is linear: moments of a truncated Gaussian.
 VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
   float c = dot(lobe.axis, wo);
   vec3 across = wo - c * lobe.axis;
@@ -68,8 +66,7 @@ float visibleElevation(vec3 direction, float elevation) { return elevation; }
 //? end
 
 //? if environment_suns
-// A sun that is too small for lookups and removed from the maps: a directional light with the visibility of the
-// environment.
+// A sun that is too small for lookups and removed from the maps.
 vec3 sunLit(SurfacePoint p, vec3 direction, vec3 irradiance) {
   if (!isVisible(direction)) return vec3(0.0);  //? if environment_visibility
   return reflected(p, incident(direction * p.frame, irradiance, vec4(direction, 0.0)));
@@ -101,9 +98,8 @@ struct ReflectedLobe {
 // The vMF lobe of a uniform hemisphere: mean cosine 1/2.
 const float hemisphere_sharpness = 1.83;
 
-// The part of a lobe above the plane of n, as a lobe, which excludes light from below. In the tangent plane at the axis
-// it is a Gaussian cut along a line: its mean moves away from the line and its variance shrinks. A wide lobe becomes a
-// hemisphere.
+// The part of a lobe above the plane of n, as a lobe. A Gaussian cut along a line moves away from it, and its variance
+// shrinks; a wide lobe becomes a hemisphere.
 ReflectedLobe aboveHorizon(ReflectedLobe lobe, vec3 n, float share) {
   float t = dot(n, lobe.axis);
   float a = max(t * sqrt(lobe.sharpness), -5.0);
@@ -205,9 +201,8 @@ vec3 ownGeometry(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wi, vec3 wo,
 }
 
 //? if not horizon_open
-// The part of a lobe above the plane of the surface, as a lobe. The table already includes the horizon of the facets,
-// so this is the ratio of both shares. The last factor is fitted to sums over normals, because a wide truncated lobe is
-// not Gaussian.
+// The part of a lobe above the plane of the surface, as a lobe: the ratio of the shares above it and above the facets',
+// which the table includes. The last factor is fitted, because a wide truncated lobe is not Gaussian.
 float cutByHorizon(inout ReflectedLobe lobe, vec3 own_normal, vec3 n, float alpha) {
   float own = shareAbove(dot(own_normal, lobe.axis), lobe.sharpness);
   float share = shareAbove(dot(n, lobe.axis), lobe.sharpness);
@@ -300,9 +295,8 @@ DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
 //? end
 }
 
-// Lambert's term over all directions. Irradiance is almost linear in the normal, so normals with mean m receive the
-// mean over all directions plus |m| times the difference to it. With a horizon, an inclined facet loses the occluded
-// part, (1 - n_z) / 2 of a constant environment.
+// Lambert's term over all directions. Irradiance is almost linear in the normal: the mean over all directions plus |m|
+// times the difference to it. With a horizon, an inclined facet loses (1 - n_z) / 2 of a constant environment.
 vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) {
   DiffuseFacets facets = diffuseFacets(e, wo);
   float size = length(facets.mean_normal);

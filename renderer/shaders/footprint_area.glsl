@@ -1,12 +1,10 @@
-// Area weights: each texel of one level counts with its share of the footprint (docs/reference/filters.md). One bilinear lookup
-// reads 2 x 2 texels: it has their total weight, and its position sets their shares.
-// The footprint P is convolved with the tent of bilinear filtering at the finest level. A texel of level l then has the
-// integral over its square of P convolved with a box of 2^-l of its width. For strips of two rows the weight factors
-// into the share of a row and the share of a column. The row share comes from the extent of P across rows, two
-// convolved boxes; the column share from the section of P at half height.
-// Boxes of widths u and v that are small compared with a third are replaced by one box of width sqrt(u^2 + v^2), which
-// has their variance. Shares are differences of a distribution function and sum to one; the outermost ones include the
-// remainder.
+// Area weights: each texel of one level counts with its share of the footprint (docs/reference/filters.md). One
+// bilinear lookup reads 2 x 2 texels, with their total weight, at the position that sets their shares. The footprint P
+// is convolved with the tent of bilinear filtering at the finest level; a texel of level l has the integral of P
+// convolved with a box of 2^-l of its width. For strips of two rows the weight factors into the share of a row, from
+// the extent of P across rows, and that of a column, from the section of P at half height. Boxes of widths u and v that
+// are small against a third are one of width sqrt(u^2 + v^2). Shares are differences of a distribution function and sum
+// to one; the outermost include the remainder.
 
 // The position of a point along an axis: two boxes convolved about 0.
 struct Boxes {

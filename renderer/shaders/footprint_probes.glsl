@@ -28,9 +28,8 @@ float levelOf(vec2 size, Footprint f, float parts) {
 }
 
 //? if filter_anisotropic or filter_hardware
-// Equal probes along the longer edge at the level of the shorter one, by the formulas of
-// EXT_texture_filter_anisotropic; drivers differ, so they are explicit here. Rounding must not make an even footprint
-// longer than wide: one probe and two differ by a whole level.
+// Equal probes along the longer edge at the level of the shorter one, as EXT_texture_filter_anisotropic has them. An
+// even footprint must have one probe despite rounding: two are a whole level finer.
 Probes probesOf(vec2 size, Footprint f) {
   float along_x = length(f.dx * size);
   float along_y = length(f.dy * size);
@@ -65,11 +64,9 @@ float probeWeight(Probes p, int i) {
 }
 
 // Heckbert 1989: a Gaussian exp(-2 r^2) over the ellipse to which the edges map the unit circle, cut off at its border.
-// Its variance along an axis of radius s is s^2 / 4. A trilinear lookup in texels of width t has the variance t^2 / 4
-// (t^2 / 6 of the tent, t^2 / 12 of the texel).
-// With t the shorter radius, a lookup is the Gaussian across. Along the longer axis, probes at most t apart have
-// Gaussian weights with the missing variance (s^2 - t^2) / 4, up to s - t from the centre (as McCormack et al. 1999
-// place theirs). If most_probes are too few, t grows, which blurs but leaves no gaps.
+// Its variance along an axis of radius s is s^2 / 4, that of a trilinear lookup in texels of width t is t^2 / 4. With t
+// the shorter radius, a lookup is the Gaussian across. Along the longer axis, probes at most t apart add the missing
+// variance, up to s - t from the centre (as McCormack et al. 1999). If most_probes are too few, t grows.
 Probes probesOf(vec2 size, Footprint f) {
   // J J^T = (a b; b c) of the edges in texels; its eigenvalues are the squared radii.
   vec2 edge_x = f.dx * size;

@@ -4,8 +4,7 @@
 //? include common_slopes.glsl
 //? include lobe_variance.glsl if not normal_variation or not roughness_moments
 
-// As `fetch`, for two textures of the same size. One loop over the probes reads both, because position, weight and level are
-// shared.
+// As `fetch`, for two textures of the same size, in one loop over the probes.
 void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
 //? if sampling_frame and not filter_hardware
   Probes p = probesOf(vec2(textureSize(first, 0)), f);
@@ -57,8 +56,7 @@ FilteredSlopes filteredSlopes(Footprints f) {
 //? end
 //? end
 //? if normal_layers
-  // Slopes of independent layers add, and so do means and covariances. M = M1 + M2 + B1 B2^T + B2 B1^T minus (B1 +
-  // B2)(B1 + B2)^T is (M1 - B1 B1^T) + (M2 - B2 B2^T), the order with the least cancellation.
+  // Slopes of independent layers add, and so do means and covariances; adding these has the least cancellation.
   moments = fetch(layer_moments, f.layer);                       //? if variant_clean
   fetchPair(layer_moments, layer_rest, f.layer, moments, rest);  //? else
   s.mean += moments.xy;

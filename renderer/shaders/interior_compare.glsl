@@ -1,6 +1,5 @@
-// Tests whether all samples of a pixel see one smooth piece of surface. Compares each with the first sample of the
-// pixel, at the lower left of the first pass, so that the result is independent of tiles and the order of passes.
-// Blending takes the minimum over all passes: 1 if all agree.
+// Tests whether all samples of a pixel see one smooth piece of surface: each is compared with the first, at the lower
+// left of the first pass. Blending takes the minimum over all passes: 1 if all agree.
 //? if cast_shadow
 layout(binding = 0) uniform sampler2D shares;
 layout(binding = 4) uniform sampler2D first_shares;
@@ -41,8 +40,7 @@ bool isOnSurface(vec3 step, vec3 facet, float extent) {
   return abs(dot(step, facet)) <= most_sine * size + rounding && size <= 2.0 * extent + rounding;
 }
 
-// Texture coordinates change at most twice as fast as over the plane of the triangle, which allows for curvature.
-// Wrapping at the border of a repeating map is not a jump.
+// Texture coordinates change at most twice as fast as over the plane of the triangle; wrapping is not a jump.
 bool isWithoutJump(vec2 change, float stretch, float size) {
   vec2 repeated = change - round(change);
   return min(length(change), length(repeated)) <= 2.0 * stretch * size + 1e-4;

@@ -29,39 +29,31 @@ const float least_alone = 0.99;  // share of a pixel from which one material cou
 //? include alpha_mask.glsl if alpha_mask
 
 //? if cast_shadow
-// If the horizon cuts light off, light from below the surface does not reach it (docs/explanation/base-brdf.md), independent of its
-// map.
-float shareOf(float first_view, vec3 facet, vec3 normal, vec3 to_light) {
-  if (dot(normal, to_light) <= 0.0) return 0.0;  //? if not horizon_open
-  return clearOfShadow(first_view, world_position, facet, -to_light);
+// If the horizon cuts light off, light from below the surface does not reach it (docs/explanation/base-brdf.md).
+void addShare(inout vec4 shares, int place, float first_view, vec3 facet, vec3 normal, vec3 to_light) {
+  if (place < 0 || place > 3) return;
+  if (dot(normal, to_light) <= 0.0) return;  //? if not horizon_open
+  shares[place] = clearOfShadow(first_view, world_position, facet, -to_light);
 }
 
 vec4 lightShares(vec3 facet, vec3 normal) {
   vec4 shares = vec4(0.0);
   int place = -first_light;
 //? if point_light
-  for (int i = 0; i < point_light_count; ++i, ++place) {
-    if (place < 0 || place > 3) continue;
-    shares[place] = shareOf(point_lights[i].intensity.w, facet, normal, point_lights[i].position_range.xyz - world_position);
-  }
+  for (int i = 0; i < point_light_count; ++i)
+    addShare(shares, place++, point_lights[i].intensity.w, facet, normal, point_lights[i].position_range.xyz - world_position);
 //? end
 //? if spot_light
-  for (int i = 0; i < spot_light_count; ++i, ++place) {
-    if (place < 0 || place > 3) continue;
-    shares[place] = shareOf(spot_lights[i].intensity.w, facet, normal, spot_lights[i].position_range.xyz - world_position);
-  }
+  for (int i = 0; i < spot_light_count; ++i)
+    addShare(shares, place++, spot_lights[i].intensity.w, facet, normal, spot_lights[i].position_range.xyz - world_position);
 //? end
 //? if directional_light
-  for (int i = 0; i < directional_light_count; ++i, ++place) {
-    if (place < 0 || place > 3) continue;
-    shares[place] = shareOf(directional_lights[i].illuminance.w, facet, normal, directional_lights[i].to_light.xyz);
-  }
+  for (int i = 0; i < directional_light_count; ++i)
+    addShare(shares, place++, directional_lights[i].illuminance.w, facet, normal, directional_lights[i].to_light.xyz);
 //? end
 //? if area_light
-  for (int i = 0; i < area_light_count; ++i, ++place) {
-    if (place < 0 || place > 3) continue;
-    shares[place] = shareOf(area_lights[i].intensity.w, facet, normal, area_lights[i].position_area.xyz - world_position);
-  }
+  for (int i = 0; i < area_light_count; ++i)
+    addShare(shares, place++, area_lights[i].intensity.w, facet, normal, area_lights[i].position_area.xyz - world_position);
 //? end
   return shares;
 }

@@ -1,5 +1,4 @@
-// The pass of the NDF inspector: the effective NDF of a method at listed directions, for one given footprint. The
-// module replaces the line `module`.
+// The pass of the NDF inspector: the effective NDF of a method at listed directions, for one given footprint.
 layout(location = 0) out float density;
 
 uniform sampler2D ndf_directions;  // one per pixel: unit vectors, or zero where nothing is evaluated

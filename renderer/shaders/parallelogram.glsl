@@ -4,9 +4,8 @@
 // This is a sum over four edges and needs no clipping. A constant may be added to K, because the integral of k(x) dx
 // around P is 0.
 
-// The mean over [a, b] of K(y) = y clamped to -1/2 and 1/2. The antiderivative form (C(b) - C(a)) / (b - a) is 0 / 0
-// for horizontal edges. So the lengths below, within and above the box are weighted by the means of K over them, which
-// avoids cancellation.
+// The mean over [a, b] of K(y) = y clamped to -1/2 and 1/2: the lengths below, within and above the box, weighted by
+// the means of K over them. The antiderivative form is 0 / 0 for horizontal edges.
 float meanClamped(float a, float b) {
   float low = min(a, b);
   float high = max(a, b);
@@ -35,8 +34,7 @@ float coveredArea(vec2 centre, mat2 edges) {
   return max(determinant(edges) > 0.0 ? -around : around, 0.0);
 }
 
-// Widens a parallelogram to at least `narrowest` by moving the shorter edge away from the longer one. A smaller one
-// becomes a square.
+// Widens a parallelogram to at least `narrowest` by moving the shorter edge away from the longer one.
 mat2 widened(mat2 edges, float narrowest) {
   bool first = dot(edges[0], edges[0]) >= dot(edges[1], edges[1]);
   vec2 longer = first ? edges[0] : edges[1];

@@ -57,3 +57,16 @@ float fetchMoments(sampler2DArray map, Footprint f, out Moments moments[parts]) 
   return fetchMoments(map, f, any_level, moments);
 }
 //? end
+
+//? if lobes_listed
+const int lobes_per_part = row_count;  //? if anisotropic_lobe
+const int lobes_per_part = 1;          //? else
+
+// Lobe k of those that stand for a part under an environment: a row, or one round lobe of the same mean slope variance.
+NormalLobe partLobe(Part part, int k) {
+  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);                    //? if anisotropic_lobe
+  NormalLobe lobe = baseNormalLobe(part.axis, lobeFromVariance(part.breadth), part.share);  //? else
+  lobe.base = part.lobe;
+  return lobe;
+}
+//? end

@@ -41,22 +41,11 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   return r;
 }
 
-//? if lobes_listed and anisotropic_lobe
-int lobeCount(Effective e) { return parts * row_count; }
-
-NormalLobe normalLobe(Effective e, int i) { return rowLobe(e.part[i / row_count], i % row_count); }
-//? elif lobes_listed
-int lobeCount(Effective e) { return parts; }
-
-// A round lobe with the same mean slope variance.
-NormalLobe normalLobe(Effective e, int i) {
-  NormalLobe lobe = baseNormalLobe(e.part[i].axis, lobeFromVariance(e.part[i].breadth), e.part[i].share);
-  lobe.base = e.part[i].lobe;
-  return lobe;
-}
-//? end
-
 //? if lobes_listed
+int lobeCount(Effective e) { return parts * lobes_per_part; }
+
+NormalLobe normalLobe(Effective e, int i) { return partLobe(e.part[i / lobes_per_part], i % lobes_per_part); }
+
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
   return baseGeometry(lobe.base, lobe.normal, h, wi, wo);
 }

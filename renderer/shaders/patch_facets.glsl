@@ -9,19 +9,15 @@ const int bits_per_texel = 96;     // 24 per channel: exact in a float
 const int texels_per_facet = (visibility_side * visibility_side + bits_per_texel - 1) / bits_per_texel;
 
 // The draws of one sample.
-struct FacetDraw {
-  vec2 random;
-};
-
-FacetDraw drawnFacets() {
-  return FacetDraw(texel_draw);  //? if random_draws
-  return FacetDraw(vec2(0.5));   //? else
+vec2 drawnFacets() {
+  return texel_draw;  //? if random_draws
+  return vec2(0.5);   //? else
 }
 
-int patchFacet(FacetDraw draw, int k) {
+int patchFacet(vec2 draw, int k) {
   ivec2 size = textureSize(base_facets, 0);
   int share = size.x * size.y / facets_per_sample;
-  float drawn = fract(draw.random.x + 0.618034 * float(k));  // even over k, for any draw of the sample
+  float drawn = fract(draw.x + 0.618034 * float(k));  // even over k, for any draw of the sample
   return k * share + min(int(drawn * float(share)), share - 1);
 }
 
@@ -36,11 +32,11 @@ bool facetSees(int facet, vec3 w, vec2 random) {
 }
 
 // The sum over drawn facets visible from both directions: normal and share of a_v, or nothing.
-vec4 drawnNormal(FacetDraw draw, int k, vec3 wi, vec3 wo, out float paint) {
+vec4 drawnNormal(vec2 draw, int k, vec3 wi, vec3 wo, out float paint) {
   int facet = patchFacet(draw, k);
   vec4 normal = texelFetch(base_facets, ivec2(facet % facets_per_row, facet / facets_per_row), 0);
   paint = normal.w;
-  vec2 random = fract(draw.random.yx + float(k) * vec2(0.754878, 0.569840));
+  vec2 random = fract(draw.yx + float(k) * vec2(0.754878, 0.569840));
   if (dot(normal.xyz, wi) <= 0.0 || dot(normal.xyz, wo) <= 0.0) return vec4(0.0);
   if (!facetSees(facet, wo, random) || !facetSees(facet, wi, 1.0 - random)) return vec4(0.0);
   return vec4(normal.xyz, dot(normal.xyz, wo));
@@ -83,7 +79,7 @@ vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
 }
 //? end
 
-Reflected patchReflectance(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
+Reflected patchReflectance(vec2 draw, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
   r.diffuse = vec3(0.0);  //? if diffuse
@@ -113,7 +109,7 @@ Reflected patchReflectance(FacetDraw draw, Surface s, vec3 wi, vec3 wo) {
 // Materials without a patch have the facets of a texel.
 struct Effective {
   Facets facets;
-  FacetDraw draw;
+  vec2 draw;
 };
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {

@@ -1,7 +1,6 @@
-// Adds one pass of samples to the running mean of each pixel. A fragment shader reads the old sums and writes the new
-// ones: software rasterisers run fragments on all cores, and compute shaders much slower.
-// The alpha of a sample is 0 beside the surface and 1 on it. It is 1 + x if a share x of the sample had invalid texels:
-// the surface covers it, but that share has no radiance and enters no mean.
+// Adds one pass of samples to the running mean of each pixel, in a fragment shader, because software rasterisers run
+// compute shaders much slower. The alpha of a sample is 0 beside the surface and 1 on it. It is 1 + x if a share x of
+// it had invalid texels: that share has no radiance and enters no mean.
 layout(binding = 0) uniform sampler2D samples;         // grid x grid samples per pixel
 layout(binding = 1) uniform sampler2D old_mean_count;  // mean radiance over samples that have one, their number
 layout(binding = 2) uniform sampler2D old_covered;     // number of covered samples

@@ -1,5 +1,4 @@
-// Transforms vertices to a shadow map. Depth is linear along the axis of the map and written by the fragment stage, so
-// z = 0 avoids clipping by depth.
+// Transforms vertices to a shadow map. Depth is linear and written by the fragment stage, so z = 0 avoids clipping.
 layout(location = 0) in vec3 in_position;
 //? if alpha_mask
 layout(location = 3) in vec2 in_uv0;

@@ -36,8 +36,7 @@ Part absentPart() {
 
 //? if distribution_ggx
 // The base lobe ends 90 degrees from its axis. The stretch moves the part beyond the cosine (s - 1) / (s + 1), s = 1 /
-// det A, below the horizon (for a round spread about the surface normal). The tails of GGX are long enough to
-// compensate: int_0^c 2 a^2 dx / (1 - t^2 x^2)^2, t^2 = 1 - a^2, of the energy.
+// det A, below the horizon. Tails of GGX compensate: int_0^c 2 a^2 dx / (1 - t^2 x^2)^2, t^2 = 1 - a^2, of the energy.
 float tailsGivenBack(float alpha, float s) {
   float a2 = alpha * alpha;
   float t = sqrt(max(1.0 - a2, 1e-4));
@@ -79,10 +78,9 @@ Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float varian
 }
 
 //? if diffuse
-// The mean of the unit normals (2 p, 1 - |p|^2) / q, q = 1 + |p|^2, of a part. The mean m of q is known. To second
-// order in q - m the mean of 1/q is (1 + var q / m^2) / m, and that of p / q is (mean (1 + var q / m^2) - cov(p, q) /
-// m) / m. To second order of the spread cov(p, q) = 2 S mean and var q = 4 mean^T S mean. Expanding about m stays
-// bounded for wide spreads: two walls that face each other have var q = 0 and an exact result.
+// The mean of the unit normals (2 p, 1 - |p|^2) / q, q = 1 + |p|^2, of a part, about the known mean m of q. To second
+// order the mean of 1/q is (1 + var q / m^2) / m, and that of p / q is (mean (1 + var q / m^2) - cov(p, q) / m) / m,
+// with cov(p, q) = 2 S mean and var q = 4 mean^T S mean. It stays bounded for wide spreads.
 vec3 meanNormalOf(vec2 mean, vec3 spread) {
   vec2 along = vec2(dot(spread.xy, mean), dot(spread.yz, mean));
   float m = 1.0 + dot(mean, mean) + spread.x + spread.z;
@@ -146,12 +144,3 @@ float partDensity(Part part, Direction at) {
   return part.scale * ratio * ratio * lobeAt(part.lobe, 2.0 * dot(d, d) / (metric * part.metric));
 //? end
 }
-
-//? if lobes_listed and anisotropic_lobe
-// Lobe k of the row that stands for a part under an environment.
-NormalLobe rowLobe(Part part, int k) {
-  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);
-  lobe.base = part.lobe;
-  return lobe;
-}
-//? end

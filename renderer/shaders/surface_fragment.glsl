@@ -1,5 +1,4 @@
-// The forward pass: linear radiance towards the camera, and coverage in alpha. Contains everything that all methods
-// share. The module of the method replaces the line `module`.
+// The forward pass: linear radiance towards the camera, and coverage in alpha, with everything that methods share.
 in vec3 world_position;
 in vec3 world_normal;
 in vec4 world_tangent;
@@ -176,8 +175,7 @@ vec3 lit(SurfacePoint p) {
   return radiance;
 }
 
-// Base colour = factor * map * vertex colour (glTF 2.0, sections 3.9.2 and 3.7.2.1). Vertex colour is linear over a
-// triangle, so its value at the pixel centre is its mean over the pixel.
+// Base colour = factor * map * vertex colour (glTF 2.0, sections 3.9.2 and 3.7.2.1).
 vec4 baseColor(Footprints f) {
   vec4 color = base_color_factor;
   color *= fetch(base_color_map, f.base_color);  //? if base_color_variation

@@ -1,5 +1,4 @@
-// Punctual lights in the units of KHR_lights_punctual: candela and lux. Light counts are uniforms, so one program
-// serves any number. llvmpipe knows uniform values when it compiles and only unrolls short loops.
+// Punctual lights in the units of KHR_lights_punctual: candela and lux. Counts are uniforms, so one program serves any.
 
 //? if point_light
 struct PointLight {
@@ -57,9 +56,8 @@ int cubeFace(vec3 direction) {
 }
 
 // The unoccluded share of a light at a point: four texel comparisons, blended. A comparison reads the surface up to
-// sqrt(2) texels away. So the point is first moved along its geometric normal `n` until it is in front of its own plane
-// there: by sqrt(2) texels times the sine between normal and axis, plus a margin for rounding. `from_light`: from the
-// light to the point; only lights with six maps use it.
+// sqrt(2) texels away, so the point is first moved along its geometric normal `n` in front of its own plane there, plus
+// a margin for rounding. `from_light`: from the light to the point, for lights with six maps.
 float clearOfShadow(float first_view, vec3 point, vec3 n, vec3 from_light) {
   int view = int(first_view);
   if (shadow_views[view].faces_rounding.x > 1.0) view += cubeFace(from_light);

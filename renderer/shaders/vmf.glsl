@@ -19,8 +19,7 @@ float meanCosine(float kappa) {
   return (1.0 + e) / (1.0 - e) - 1.0 / kappa;
 }
 
-// kappa from q = 1 - |r|, 0 < q <= 1 (Banerjee et al. 2005; Xu 2017, equation 8): kappa = (3 |r| - |r|^3) / (1 -
-// |r|^2). q stays precise for narrow lobes.
+// kappa = (3 |r| - |r|^3) / (1 - |r|^2) from q = 1 - |r|, 0 < q <= 1 (Banerjee et al. 2005; Xu 2017, equation 8).
 float kappaOf(float q) { return (1.0 - q) * (2.0 + q * (2.0 - q)) / (q * (2.0 - q)); }
 
 // The inverse: the root in (0, 1] of q^3 + (kappa - 3) q^2 - 2 kappa q + 2 = 0 (Xu 2017, equation 9, in q), by two

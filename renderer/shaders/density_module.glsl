@@ -1,0 +1,10 @@
+// `shade` of a module whose facets reflect about the half vector. Includers define `Effective`, `meanNormal`, and
+// `reflectedDensity`: f * cos without the Fresnel term.
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
+  Reflected r;
+  r.specular = vec3(0.0);
+  if (halfVectorIsDefined(wi, wo))
+    r.specular = fresnelTerm(s.f0, wi, wo) * reflectedDensity(e, halfVector(wi, wo), wi, wo);
+  r.diffuse = diffuse(meanNormal(e), s, wi, wo);  //? if diffuse
+  return r;
+}

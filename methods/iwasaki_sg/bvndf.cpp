@@ -49,12 +49,19 @@ constexpr std::size_t runs = 8;
 // Shares of a lobe in a normal below this, relative to its largest share, are left out.
 constexpr double negligible = 1e-9;
 
-// The bits of one bin for one direction, with its first and last word masked.
-void cut_bits(std::span<const std::uint64_t> words, const NormalBin& bin, std::uint64_t* out) {
-  const std::size_t first = bin.begin / 64, last = (bin.end - 1) / 64;
-  for (std::size_t w = first; w <= last; ++w) out[w - first] = words[w];
-  out[0] &= ~std::uint64_t{0} << (bin.begin % 64);
-  out[last - first] &= ~std::uint64_t{0} >> (63 - (bin.end - 1) % 64);
+// Word w of the bits of one direction, without those outside a bin.
+std::uint64_t bits_of(std::span<const std::uint64_t> words, const NormalBin& bin, std::size_t w) {
+  std::uint64_t bits = words[w];
+  if (w == bin.begin / 64) bits &= ~std::uint64_t{0} << (bin.begin % 64);
+  if (w == (bin.end - 1) / 64) bits &= ~std::uint64_t{0} >> (63 - (bin.end - 1) % 64);
+  return bits;
+}
+
+// How many of the samples of a bin two directions see.
+int common_count(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b, const NormalBin& bin) {
+  int count = 0;
+  for (std::size_t w = bin.begin / 64; w <= (bin.end - 1) / 64; ++w) count += std::popcount(bits_of(a, bin, w) & b[w]);
+  return count;
 }
 
 // The counts of common bits of row `a` and each following row.
@@ -80,7 +87,7 @@ class PairCounts {
     rows_.resize(bvndf.directions.size() * words);
     for (std::size_t d = 0; d < bvndf.directions.size(); ++d) {
       std::uint64_t* const row = rows_.data() + active_.size() * words;
-      cut_bits(bvndf.visibility.of(d), bin, row);
+      for (std::size_t w = 0; w < words; ++w) row[w] = bits_of(bvndf.visibility.of(d), bin, bin.begin / 64 + w);
       if (std::any_of(row, row + words, [](std::uint64_t word) { return word != 0; })) active_.push_back(d);
     }
     const std::size_t n = active_.size();
@@ -285,17 +292,7 @@ std::vector<WeightedNormal> pool_normals(std::vector<WeightedNormal> normals, st
 }
 
 double Bvndf::gamma(std::size_t bin, std::size_t wi, std::size_t wo) const {
-  const NormalBin& range = bins[bin];
-  const auto seen_i = visibility.of(wi), seen_o = visibility.of(wo);
-  const std::size_t first = range.begin / 64, last = (range.end - 1) / 64;
-  int count = 0;
-  for (std::size_t w = first; w <= last; ++w) {
-    std::uint64_t both = seen_i[w] & seen_o[w];
-    if (w == first) both &= ~std::uint64_t{0} << (range.begin % 64);
-    if (w == last) both &= ~std::uint64_t{0} >> (63 - (range.end - 1) % 64);
-    count += std::popcount(both);
-  }
-  return count * facet_area;
+  return common_count(visibility.of(wi), visibility.of(wo), bins[bin]) * facet_area;
 }
 
 double Bvndf::total_area() const { return bins.empty() ? 0.0 : static_cast<double>(bins.back().end) * facet_area; }
@@ -307,16 +304,10 @@ Bvndf make_bvndf(BinnedFacets facets, FacetVisibility visibility, std::vector<gl
             .facet_area = facets.samples.facet_area,
             .visible_area = {}};
   out.visible_area.resize(out.directions.size());
-  std::vector<std::uint64_t> bits;
   for (std::size_t d = 0; d < out.directions.size(); ++d) {
+    const auto seen = out.visibility.of(d);
     double sum = 0.0;
-    for (const NormalBin& bin : out.bins) {
-      bits.assign((bin.end - 1) / 64 - bin.begin / 64 + 1, 0);
-      cut_bits(out.visibility.of(d), bin, bits.data());
-      int count = 0;
-      for (const std::uint64_t word : bits) count += std::popcount(word);
-      sum += count * cosine(bin.normal, out.directions[d]);
-    }
+    for (const NormalBin& bin : out.bins) sum += common_count(seen, seen, bin) * cosine(bin.normal, out.directions[d]);
     out.visible_area[d] = sum * out.facet_area;
   }
   return out;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "renderer/environment/reference_tables.hpp"
 #include "renderer/lobes/lobe.hpp"
@@ -30,11 +31,6 @@ struct Moments {
   double weight = 0.0;
 };
 
-struct Mixture {
-  std::vector<SphericalGaussian> lobes;
-  std::vector<double> shares;
-};
-
 // The M-step of one lobe. A normal represents a lobe of `sharpest`, whose mean vector is shorter than 1 by its inverse.
 SphericalGaussian lobe_of(const Moments& moments, const SphericalGaussian& before) {
   const double length = glm::length(moments.sum);
@@ -43,7 +39,7 @@ SphericalGaussian lobe_of(const Moments& moments, const SphericalGaussian& befor
   return {moments.sum / length, std::clamp(vmf_kappa_of_shortfall(1.0 - r), 1e-2, sharpest)};
 }
 
-void maximise(std::span<const Moments> moments, double total, Mixture& mixture) {
+void maximise(std::span<const Moments> moments, double total, NdfFit& mixture) {
   for (std::size_t j = 0; j < moments.size(); ++j) {
     mixture.shares[j] = moments[j].weight / total;
     if (moments[j].weight > 0.0) mixture.lobes[j] = lobe_of(moments[j], mixture.lobes[j]);
@@ -52,7 +48,7 @@ void maximise(std::span<const Moments> moments, double total, Mixture& mixture) 
 
 // The E-step: sums for the M-step, and the mean log-likelihood of the mixture, by log-sum-exp so that no lobe of 1e6
 // underflows.
-double expect(std::span<const WeightedNormal> normals, double total, const Mixture& mixture,
+double expect(std::span<const WeightedNormal> normals, double total, const NdfFit& mixture,
               std::span<Moments> moments) {
   std::array<double, most_lobes> constant{};
   std::array<double, most_lobes> terms{};
@@ -105,8 +101,8 @@ std::vector<glm::dvec3> spread_seeds(std::span<const WeightedNormal> normals, st
 }
 
 // Assigns every normal to its nearest seed, followed by the M-step.
-Mixture clustered(std::span<const WeightedNormal> normals, double total, std::span<const glm::dvec3> seeds) {
-  Mixture mixture;
+NdfFit clustered(std::span<const WeightedNormal> normals, double total, std::span<const glm::dvec3> seeds) {
+  NdfFit mixture;
   std::vector<Moments> moments(seeds.size());
   for (const glm::dvec3& seed : seeds) mixture.lobes.push_back({seed, 1.0});
   mixture.shares.resize(seeds.size());
@@ -122,7 +118,7 @@ Mixture clustered(std::span<const WeightedNormal> normals, double total, std::sp
   return mixture;
 }
 
-double iterate(std::span<const WeightedNormal> normals, double total, Mixture& mixture) {
+double iterate(std::span<const WeightedNormal> normals, double total, NdfFit& mixture) {
   std::vector<Moments> moments(mixture.lobes.size());
   double before = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_iterations; ++i) {
@@ -135,7 +131,7 @@ double iterate(std::span<const WeightedNormal> normals, double total, Mixture& m
 }
 
 // Merges lobes that are too close for Eq. 8: the condition number of a pair is (1 + c) / (1 - c).
-void merge(Mixture& mixture) {
+void merge(NdfFit& mixture) {
   constexpr double most = (most_condition - 1.0) / (most_condition + 1.0);
   for (std::size_t a = 0; a < mixture.lobes.size(); ++a) {
     for (std::size_t b = a + 1; b < mixture.lobes.size();) {
@@ -238,10 +234,10 @@ NdfFit fit_ndf(std::span<const WeightedNormal> normals, int count) {
   if (pooled.empty()) return {{SphericalGaussian{{0.0, 0.0, 1.0}, sharpest}}, {1.0}};
   double total = 0.0;
   for (const WeightedNormal& n : pooled) total += n.weight;
-  Mixture best;
+  NdfFit best;
   double most = -std::numeric_limits<double>::infinity();
   for (const double weighting : {1.0, 0.0}) {
-    Mixture mixture =
+    NdfFit mixture =
         clustered(pooled, total, spread_seeds(pooled, static_cast<std::size_t>(std::max(count, 1)), weighting));
     const double likelihood = iterate(pooled, total, mixture);
     if (likelihood > most) {
@@ -251,13 +247,12 @@ NdfFit fit_ndf(std::span<const WeightedNormal> normals, int count) {
   }
   merge(best);
   NdfFit fit;
-  double remaining = 0.0;
   for (std::size_t j = 0; j < best.lobes.size(); ++j) {
     if (best.shares[j] < least_share) continue;
     fit.lobes.push_back(best.lobes[j]);
     fit.shares.push_back(best.shares[j]);
-    remaining += best.shares[j];
   }
+  const double remaining = std::accumulate(fit.shares.begin(), fit.shares.end(), 0.0);
   for (double& share : fit.shares) share /= remaining;
   return fit;
 }
@@ -339,6 +334,16 @@ Amplitudes solve_amplitudes(const Bvndf& bvndf, const BvndfSums& sums, std::span
   return out;
 }
 
+glm::vec4 lobe_texel(const SphericalGaussian& lobe) {
+  return {glm::vec3(lobe.axis), static_cast<float>(lobe.sharpness)};
+}
+
+PrefilteredTexture texel_rows(std::string name, std::size_t width, std::span<const glm::vec4> texels) {
+  Image image(static_cast<int>(width), static_cast<int>(texels.size() / width), 4);
+  std::copy_n(&texels.front().x, image.texels.size(), image.texels.begin());
+  return make_texture(std::move(name), {std::move(image)}, Storage::fp32, {});
+}
+
 std::vector<LightGaussian> light_gaussians(const Environment& environment) {
   const std::vector<DenseLight> lights = dense_lights(suns_apart(environment).rest);
   std::vector<WeightedNormal> directions;
@@ -357,15 +362,10 @@ std::vector<LightGaussian> light_gaussians(const Environment& environment) {
 PrefilteredTexture environment_texture(const Environment& environment) {
   std::vector<LightGaussian> gaussians = light_gaussians(environment);
   if (gaussians.empty()) gaussians.push_back({.lobe = {.axis = {0.0, 0.0, 1.0}, .sharpness = even_sharpness}});
-  Image image(static_cast<int>(gaussians.size()), 2, 4);
-  for (int k = 0; k < image.width; ++k) {
-    const LightGaussian& gaussian = gaussians[static_cast<std::size_t>(k)];
-    const glm::vec4 lobe(glm::vec3(gaussian.lobe.axis), static_cast<float>(gaussian.lobe.sharpness));
-    const glm::vec4 light(glm::vec3(gaussian.light), 0.0F);
-    std::copy_n(&lobe.x, 4, image.at(k, 0).begin());
-    std::copy_n(&light.x, 4, image.at(k, 1).begin());
-  }
-  return make_texture("iwasaki_environment", {image}, Storage::fp32, {});
+  std::vector<glm::vec4> texels;
+  for (const LightGaussian& gaussian : gaussians) texels.push_back(lobe_texel(gaussian.lobe));
+  for (const LightGaussian& gaussian : gaussians) texels.emplace_back(glm::vec3(gaussian.light), 0.0F);
+  return texel_rows("iwasaki_environment", gaussians.size(), texels);
 }
 
 }  // namespace footprint::iwasaki_sg

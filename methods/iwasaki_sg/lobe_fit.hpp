@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "methods/iwasaki_sg/bvndf.hpp"
@@ -84,6 +85,10 @@ struct LightGaussian {
 /// direction belongs to the Gaussians by their shares of its luminance, so the light of all directions is preserved.
 /// Empty: black.
 [[nodiscard]] std::vector<LightGaussian> light_gaussians(const Environment& environment);
+
+/// Axis and sharpness of a lobe as a texel, and a texture of rows of texels.
+[[nodiscard]] glm::vec4 lobe_texel(const SphericalGaussian& lobe);
+[[nodiscard]] PrefilteredTexture texel_rows(std::string name, std::size_t width, std::span<const glm::vec4> texels);
 
 /// `iwasaki_environment`: a texel per Gaussian with axis and sharpness, and below it one with its light.
 [[nodiscard]] PrefilteredTexture environment_texture(const Environment& environment);

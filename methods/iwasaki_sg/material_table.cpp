@@ -43,13 +43,10 @@ std::vector<double> shares_from_above(const Amplitudes& table, int side) {
 
 // Row 0: axis and sharpness of each lobe. Row 1: its share of the normals.
 PrefilteredTexture lobe_texture(std::span<const SphericalGaussian> lobes, std::span<const double> shares) {
-  Image image(static_cast<int>(lobes.size()), 2, 4);
-  for (std::size_t j = 0; j < lobes.size(); ++j) {
-    const glm::vec4 lobe(glm::vec3(lobes[j].axis), static_cast<float>(lobes[j].sharpness));
-    std::copy_n(&lobe.x, 4, image.at(static_cast<int>(j), 0).begin());
-    image.at(static_cast<int>(j), 1)[0] = static_cast<float>(shares[j]);
-  }
-  return make_texture("iwasaki_lobes", {image}, Storage::fp32, {});
+  std::vector<glm::vec4> texels;
+  for (const SphericalGaussian& lobe : lobes) texels.push_back(lobe_texel(lobe));
+  for (const double share : shares) texels.emplace_back(static_cast<float>(share), 0.0F, 0.0F, 0.0F);
+  return texel_rows("iwasaki_lobes", lobes.size(), texels);
 }
 
 // Whether a table includes the facets' cosine to the light.
@@ -107,7 +104,7 @@ PrefilteredTexture amplitude_texture(const Amplitudes& table, const TableSetting
 PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
   const std::vector<glm::dvec3> directions = direction_grid(side);
   const std::size_t n = table.directions;
-  Image share(side, side, 4), normal(side, side, 4);
+  std::vector<glm::vec4> shares, normals;
   for (std::size_t wo = 0; wo < n; ++wo) {
     glm::dvec3 sum(0.0), mean(0.0);
     double irradiance = 0.0;
@@ -121,12 +118,15 @@ PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
       mean += (reflected.x + reflected.y + reflected.z) * directions[wi];
     }
     const double total = sum.x + sum.y + sum.z;
-    const glm::vec4 texel(glm::vec3(sum / irradiance), 0.0F);
-    const glm::vec4 leaning(total > 0.0 ? glm::vec3(1.5 / total * mean) : glm::vec3(0.0F, 0.0F, 1.0F), 0.0F);
-    std::copy_n(&texel.x, 4, share.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
-    std::copy_n(&leaning.x, 4, normal.texels.begin() + static_cast<std::ptrdiff_t>(4 * wo));
+    shares.emplace_back(glm::vec3(sum / irradiance), 0.0F);
+    normals.emplace_back(total > 0.0 ? glm::vec3(1.5 / total * mean) : glm::vec3(0.0F, 0.0F, 1.0F), 0.0F);
   }
-  return make_array_texture("iwasaki_diffuse", {{std::move(share)}, {std::move(normal)}}, Storage::fp32, {},
+  const auto image = [side](const std::vector<glm::vec4>& texels) {
+    Image out(side, side, 4);
+    std::copy_n(&texels.front().x, out.texels.size(), out.texels.begin());
+    return out;
+  };
+  return make_array_texture("iwasaki_diffuse", {{image(shares)}, {image(normals)}}, Storage::fp32, {},
                             TextureFilter::linear);
 }
 
@@ -146,16 +146,10 @@ std::array<PrefilteredTexture, 2> table_textures(const Material& material) {
   TabulatedLobes fitted{.diffuse = glm::vec3(0.0F), .lobes = {}, .rise = {glm::vec3(1.0F)}};
   if (is_tabulated(material)) fitted = lobes_of(*material.microgeometry->brdf);
   fitted.lobes.insert(fitted.lobes.begin(), {0.0, fitted.diffuse});
-  Image lobes(static_cast<int>(fitted.lobes.size()), 1, 4), rise(static_cast<int>(fitted.rise.size()), 1, 4);
-  for (std::size_t i = 0; i < fitted.lobes.size(); ++i) {
-    const glm::vec4 texel(static_cast<float>(fitted.lobes[i].sharpness), fitted.lobes[i].amplitude);
-    std::copy_n(&texel.x, 4, lobes.at(static_cast<int>(i), 0).begin());
-  }
-  for (std::size_t i = 0; i < fitted.rise.size(); ++i) {
-    std::copy_n(&fitted.rise[i].x, 3, rise.at(static_cast<int>(i), 0).begin());
-  }
-  return {make_texture("iwasaki_table", {lobes}, Storage::fp32, {}),
-          make_texture("iwasaki_rise", {rise}, Storage::fp32, {})};
+  std::vector<glm::vec4> lobes, rise;
+  for (const ColorLobe& lobe : fitted.lobes) lobes.emplace_back(static_cast<float>(lobe.sharpness), lobe.amplitude);
+  for (const glm::vec3& factor : fitted.rise) rise.emplace_back(factor, 0.0F);
+  return {texel_rows("iwasaki_table", lobes.size(), lobes), texel_rows("iwasaki_rise", rise.size(), rise)};
 }
 
 std::vector<std::string> notes_of(const Material& material, const MaterialTable& table) {

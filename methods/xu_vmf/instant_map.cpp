@@ -39,15 +39,9 @@ bool in_camera_space(const FrameBuildJob& job) {
   return found != job.baked.scalars.end() && found->second > 0.5F;
 }
 
-// Shows only the level that the next coarser one is computed from.
-void show_one_level(const gl::Texture& map, int level) {
-  gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, level);
-  gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, level);
-}
-
-void show_all_levels(const gl::Texture& map, int levels) {
-  gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, 0);
-  gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, levels - 1);
+void show_levels(const gl::Texture& map, int first, int last) {
+  gl::api().TextureParameteri(map.name(), GL_TEXTURE_BASE_LEVEL, first);
+  gl::api().TextureParameteri(map.name(), GL_TEXTURE_MAX_LEVEL, last);
 }
 
 // The lookups that average the texels under a texel of the next level (sharesOf in xu_vmf_storing.glsl).
@@ -62,10 +56,6 @@ const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view na
 }
 
 }  // namespace
-
-int whole_layers(const Material& material) {
-  return material.lobes.empty() ? 1 : static_cast<int>(material.lobes.size()) + 1;
-}
 
 const gl::Texture& DrawnLevel::make_room(const gl::Texture& like, int width, int height, int layers) {
   GLint format = 0;
@@ -147,7 +137,8 @@ void InstantMap::run(const FrameBuildJob& job) const {
   join(job);
   for (const std::string_view name : {whole_name, whole_guard_name}) coarsen(job, name);
   if (parts_ == 0) return;
-  split(job);
+  split(job, *split_, whole_name, parts_name);
+  if (guards_) split(job, *split_guard_, whole_guard_name, parts_guard_name);
   for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(job, name);
 }
 
@@ -201,11 +192,6 @@ void InstantMap::join(const FrameBuildJob& job) const {
   }
 }
 
-void InstantMap::split(const FrameBuildJob& job) const {
-  split(job, *split_, whole_name, parts_name);
-  if (guards_) split(job, *split_guard_, whole_guard_name, parts_guard_name);
-}
-
 // Computes level 1 of the parts from the finest level of `from`, a texture of the whole hemisphere.
 void InstantMap::split(const FrameBuildJob& job, const gl::Program& program, std::string_view from,
                        std::string_view to) const {
@@ -251,7 +237,7 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
   const int layers = declared(job, name).layers;
   gl::bind_texture(0, *built->texture);
   for (int level = 1; level < levels; ++level) {
-    show_one_level(*built->texture, level - 1);
+    show_levels(*built->texture, level - 1, level - 1);  // the one that this level is computed from
     const double taps = averaging_lookups(*built->texture, level - 1);
     const glm::ivec2 size = glm::max(glm::ivec2(built->texture->width(), built->texture->height()) >> level, 1);
     for (int first = 0; first < layers;) {
@@ -266,7 +252,7 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
       first += drawn;
     }
   }
-  show_all_levels(*built->texture, levels);
+  show_levels(*built->texture, 0, levels - 1);
 }
 
 }  // namespace xu_vmf

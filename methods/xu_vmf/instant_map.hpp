@@ -17,10 +17,6 @@ inline constexpr std::string_view whole_guard_name = "xu_vmf_whole_guard", parts
 inline constexpr std::string_view normals_name = "xu_vmf_normals", variances_name = "xu_vmf_variances";
 inline constexpr std::string_view table_name = "xu_vmf_shortfalls", colours_name = "xu_vmf_colours";
 
-/// Layers of the texture of the whole hemisphere: 1 if facets have one lobe, otherwise one for each of their lobes and
-/// one of normals alone.
-[[nodiscard]] int whole_layers(const Material& material);
-
 /// The scalar that says whether a material's map is in camera space: 1 or 0.
 inline constexpr std::string_view camera_space_name = "xu_vmf_in_camera_space";
 
@@ -95,7 +91,6 @@ class InstantMap final : public FrameBuild {
 
   void join(const FrameBuildJob& job) const;
   void prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const;
-  void split(const FrameBuildJob& job) const;
   void split(const FrameBuildJob& job, const gl::Program& program, std::string_view from, std::string_view to) const;
   void coarsen(const FrameBuildJob& job, std::string_view name) const;
   void draw_into(const FrameBuildJob& job, const Stage& stage, const LevelDraw& draw) const;

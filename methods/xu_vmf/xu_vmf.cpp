@@ -55,10 +55,6 @@ std::vector<OptionSpec> option_table() {
           threshold_option("eps1", 0.85, "j=adaptive: one lobe serves one of the 4 parts where its |r| is above.")};
 }
 
-bool same_place(const TextureCoordinates& a, const TextureCoordinates& b) {
-  return a.set == b.set && a.transform == b.transform && a.wrap == b.wrap;
-}
-
 // Whether the maps can be joined texel by texel: a point of the surface is the same point in both. A missing map joins
 // with any other.
 bool can_join(const Material& material) {
@@ -66,7 +62,7 @@ bool can_join(const Material& material) {
   const TextureCoordinates roughness = roughness_coordinates(material);
   TextureCoordinates normal = normal_coordinates(material);
   if (!material.normal_map) normal.wrap = roughness.wrap;
-  return same_place(normal, roughness);
+  return normal == roughness;
 }
 
 // 1 - |r| over the logarithm of kappa, 0.01 to 100 000. |r| itself is near 1 over most of the range.
@@ -103,8 +99,9 @@ struct Inputs {
   }
 };
 
+// Layers of the texture of the whole hemisphere: if facets have several lobes, one for each and one of normals alone.
 int layers_of(const Material& material, const EffectSet& effects) {
-  return has(effects, Effect::multi_lobe) ? xu_vmf::whole_layers(material) : 1;
+  return has(effects, Effect::multi_lobe) && !material.lobes.empty() ? static_cast<int>(material.lobes.size()) + 1 : 1;
 }
 
 // Declares the maps that the frame build fills, for a finest level of `size`. The walk over parts gathers texels of the
@@ -163,7 +160,7 @@ Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_v
         "the roughness map has other texture coordinates than the normal map and cannot be joined with it; its mean "
         "variance stands in");
   }
-  if (inputs.colours_vary && material.specular_map && !same_place(inputs.coordinates, specular_coordinates(material))) {
+  if (inputs.colours_vary && material.specular_map && inputs.coordinates != specular_coordinates(material)) {
     inputs.weights = Image(1, 1, 1, 1.0F);
     out.notes.emplace_back(
         "the map of specular colours has other texture coordinates and cannot be joined; it is filtered on its own");

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/atanasov_bins/bin_textures.hpp"
 #include "methods/atanasov_bins/inverse_map.hpp"
 #include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
@@ -25,31 +24,17 @@ constexpr int bins_as_published = 127;
 // If texels reflect by lobes, the least width of a bin in standard deviations of a lobe.
 constexpr double bin_width = 1.5;
 
-enum class Roughness { lobe, bin, flakes };
-
 // The options that the bake reads.
 struct Settings {
-  int most_across;     // bins along an edge
-  int across_as_bins;  // the same with roughness=bin
-  Roughness roughness;
-  double flake_variance;  // slope variance of the lobe of a flake
-  bool microfacets;
-  Storage storage;
+  const Options& options;
+  int m = static_cast<int>(options.number("m"));
+  int most_across = m > 0 ? m : most_bins_across;      // bins along an edge
+  int across_as_bins = m > 0 ? m : bins_as_published;  // the same with roughness=bin
+  bool lobe = options.word("roughness") == "lobe";
+  bool bin = options.word("roughness") == "bin";
+  bool microfacets = options.word("surface") == "microfacets";
+  Storage storage = parse_storage(options.word("storage"));
 };
-
-Settings settings_of(const Options& options) {
-  const auto m = static_cast<int>(options.number("m"));
-  const std::string& roughness = options.word("roughness");
-  const double alpha = options.number("alpha");
-  return {.most_across = m > 0 ? m : most_bins_across,
-          .across_as_bins = m > 0 ? m : bins_as_published,
-          .roughness = roughness == "lobe"  ? Roughness::lobe
-                       : roughness == "bin" ? Roughness::bin
-                                            : Roughness::flakes,
-          .flake_variance = 0.5 * alpha * alpha,
-          .microfacets = options.word("surface") == "microfacets",
-          .storage = parse_storage(options.word("storage"))};
-}
 
 // Texels whose lobes differ by more are in separate lists, so that the mean width of a list is close to that of each.
 constexpr double class_ratio = 4.0;  // of slope variances
@@ -73,14 +58,10 @@ double narrow_variance(const Material& material) {
 }
 
 int bins_across(const Material& material, const Settings& settings) {
-  if (settings.roughness == Roughness::bin) return settings.across_as_bins;
-  const bool flakes = settings.roughness == Roughness::flakes;
-  return bins_across_for(flakes ? settings.flake_variance : narrow_variance(material), bin_width, settings.most_across);
-}
-
-// Flakes have a lobe of their own, and mirrors that face h need none.
-bool reads_base_lobe(const Settings& settings) {
-  return settings.roughness == Roughness::lobe || (settings.roughness == Roughness::bin && settings.microfacets);
+  if (settings.bin) return settings.across_as_bins;
+  const double alpha = settings.options.number("alpha");  // of a flake
+  return bins_across_for(settings.lobe ? narrow_variance(material) : 0.5 * alpha * alpha, bin_width,
+                         settings.most_across);
 }
 
 // Mean normals of 4 x 4 texels and coarser; for fewer texels the shader reads the texels themselves.
@@ -140,15 +121,16 @@ TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths)
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
   Prefiltered out;
-  const Settings settings = settings_of(options);
+  const Settings settings{options};
   const int across = bins_across(material, settings);
   out.scalars["bins_across"] = static_cast<float>(across);
-  if (reads_base_lobe(settings)) {
+  // Flakes have a lobe of their own, and mirrors that face h need none.
+  if (settings.lobe || (settings.bin && settings.microfacets)) {
     append(out.textures, bake_lobe_variance(material, Storage::fp32, effects).textures);
   }
   if (!has(effects, Effect::normal_variation)) return out;
   if (has(effects, Effect::diffuse)) out.textures.push_back(mean_normal_texture(material, settings.storage));
-  const bool by_width = settings.roughness == Roughness::lobe && has(effects, Effect::roughness_variation);
+  const bool by_width = settings.lobe && has(effects, Effect::roughness_variation);
   if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
   const Image normals = normal_map_of(material);
   const BinMap bins = bin_map(normals, across, progress);
@@ -164,7 +146,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   const InverseMap inverse = inverse_of(bins, progress, texels);
   add_inverse_map(inverse, out);
   if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
-  if (settings.roughness != Roughness::bin) {
+  if (!settings.bin) {
     const std::vector<glm::vec2> roundings = list_roundings(inverse, bins, normals);
     add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
     out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());

@@ -1,5 +1,5 @@
 // Stores integers as bytes, which textures return exactly, because the pipeline has no integer formats.
-#include "methods/atanasov_bins/bin_textures.hpp"
+#include "methods/atanasov_bins/inverse_map.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // Bins: golden indices, equal solid angle, packed normals that stay in their bin.
-#include "methods/atanasov_bins/bin_textures.hpp"
+#include "methods/atanasov_bins/inverse_map.hpp"
 
 #include <gtest/gtest.h>
 

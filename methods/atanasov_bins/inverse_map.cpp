@@ -12,7 +12,6 @@
 #include <cmath>
 #include <span>
 
-#include "methods/atanasov_bins/bin_textures.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 
@@ -184,18 +183,15 @@ struct Sums {
 };
 
 // Computes the moments of the nodes of one list's tree.
-class MomentsOfNodes {
- public:
-  MomentsOfNodes(const InverseMap& map, const BinMap& bins, std::uint32_t key, int across,
-                 std::vector<std::uint32_t>& out)
-      : map_(&map), bins_(&bins), across_(across), out_(&out) {
-    const std::uint32_t bin = key & ((1U << bin_bits) - 1U), m = static_cast<std::uint32_t>(across);
-    middle_ = glm::dvec2(bin % m, bin / m) + 0.5;
-  }
+struct MomentsOfNodes {
+  const InverseMap& map;
+  const BinMap& bins;
+  std::uint32_t bin, across;
+  std::vector<std::uint32_t>& out;
 
   Sums add(std::uint32_t at, std::uint32_t first, std::uint32_t end) const {
     if (end - first <= leaf_size) return of_texels(first, end);
-    const Branches branches = branches_of(map_->forest, at, first, end);
+    const Branches branches = branches_of(map.forest, at, first, end);
     Sums lower, upper;
     const auto add_lower = [&] { lower = add(branches.lower, first, branches.upper_first); };
     const auto add_upper = [&] { upper = add(branches.upper, branches.upper_first, end); };
@@ -208,28 +204,22 @@ class MomentsOfNodes {
     const Sums sums{lower.offset + upper.offset, lower.squares + upper.squares};
     const glm::dvec2 mean = sums.offset / static_cast<double>(end - first);
     const glm::dvec2 variance = sums.squares / static_cast<double>(end - first) - mean * mean;
-    (*out_)[at] = packed_moments({mean, 0.5 * (variance.x + variance.y)});
+    out[at] = packed_moments({mean, 0.5 * (variance.x + variance.y)});
     return sums;
   }
 
- private:
   [[nodiscard]] Sums of_texels(std::uint32_t first, std::uint32_t end) const {
+    const glm::dvec2 middle = glm::dvec2(bin % across, bin / across) + 0.5;
     Sums sums;
     for (std::uint32_t i = first; i < end; ++i) {
-      const std::uint32_t place = map_->texels[i];
-      const std::size_t texel = static_cast<std::size_t>(place >> 16U) * static_cast<std::size_t>(map_->width);
-      const glm::dvec2 offset = place_in_square(bins_->normals[texel + (place & 0xFFFFU)]) * double(across_) - middle_;
+      const std::uint32_t place = map.texels[i];
+      const std::size_t texel = static_cast<std::size_t>(place >> 16U) * static_cast<std::size_t>(map.width);
+      const glm::dvec2 offset = place_in_square(bins.normals[texel + (place & 0xFFFFU)]) * double(across) - middle;
       sums.offset += offset;
       sums.squares += offset * offset;
     }
     return sums;
   }
-
-  const InverseMap* map_;
-  const BinMap* bins_;
-  int across_;
-  std::vector<std::uint32_t>* out_;
-  glm::dvec2 middle_{0.0};
 };
 
 }  // namespace
@@ -310,7 +300,9 @@ std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bin
     const TexelList& list = map.lists[i];
     if (list.key == no_key) return;
     const int across = classes.across.empty() ? bins.across : classes.across[list.key >> bin_bits];
-    MomentsOfNodes(map, bins, list.key, across, out).add(list.root, list.first, list.first + map.count_of(i));
+    const std::uint32_t bin = list.key & ((1U << bin_bits) - 1U);
+    MomentsOfNodes{map, bins, bin, static_cast<std::uint32_t>(across), out}.add(list.root, list.first,
+                                                                                list.first + map.count_of(i));
   });
   return out;
 }

@@ -11,7 +11,6 @@
 #include <random>
 #include <set>
 
-#include "methods/atanasov_bins/bin_textures.hpp"
 #include "renderer/core/error.hpp"
 #include "tests/methods/bins_twin.hpp"
 

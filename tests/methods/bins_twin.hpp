@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "methods/atanasov_bins/bin_textures.hpp"
 #include "methods/atanasov_bins/inverse_map.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
 #include "renderer/scene/material.hpp"

@@ -17,29 +17,14 @@ namespace footprint::tan_gmm {
 namespace {
 
 // The mixtures of one level, row by row.
-class Level {
- public:
-  Level(int width, int height, std::size_t components)
-      : width_(width),
-        height_(height),
-        components_(components),
-        gaussians_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * components) {}
+struct Level {
+  int width, height;
+  std::size_t components;
+  std::vector<Gaussian> gaussians = std::vector<Gaussian>(static_cast<std::size_t>(width * height) * components);
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
-  [[nodiscard]] std::span<Gaussian> at(int x, int y) { return {gaussians_.data() + offset(x, y), components_}; }
-  [[nodiscard]] std::span<const Gaussian> at(int x, int y) const {
-    return {gaussians_.data() + offset(x, y), components_};
+  [[nodiscard]] std::span<Gaussian> at(int x, int y) {
+    return std::span(gaussians).subspan(static_cast<std::size_t>(y * width + x) * components, components);
   }
-
- private:
-  [[nodiscard]] std::size_t offset(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * components_;
-  }
-
-  int width_, height_;
-  std::size_t components_;
-  std::vector<Gaussian> gaussians_;
 };
 
 struct Workspace {
@@ -48,38 +33,33 @@ struct Workspace {
 };
 
 // Fits the texels of one level, after the coarser one.
-class LevelFit {
- public:
-  LevelFit(const NormalField& normals, const PooledTiles& tiles, const FitSettings& settings, Moment moment,
-           const Level* coarser, Level& level, std::span<Image> stored,
-           tbb::enumerable_thread_specific<Workspace>& workspaces)
-      : normals_(&normals),
-        tiles_(&tiles),
-        settings_(&settings),
-        moment_(moment),
-        coarser_(coarser),
-        level_(&level),
-        stored_(stored),
-        workspaces_(&workspaces) {}
+struct LevelFit {
+  const NormalField& normals;
+  const PooledTiles& tiles;
+  const FitSettings& settings;
+  Moment moment;
+  Level* coarser;
+  Level& level;
+  std::span<Image> stored;
+  tbb::enumerable_thread_specific<Workspace>& workspaces;
 
   void run(const std::function<void(double)>& report) const {
-    settings_->align ? run_wavefront(report) : run_rows(report);
+    settings.align ? run_wavefront(report) : run_rows(report);
   }
 
- private:
   // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them have no greater u and
   // no greater y. Therefore square blocks over (u, y) with equal sums of indices are independent. They run in parallel,
   // and every texel reads the same neighbours as in scanline order.
   void run_wavefront(const std::function<void(double)>& report) const {
-    const int side = std::clamp(level_->width() / 32, 1, 16);
-    const int rows = (level_->height() + side - 1) / side;
-    const int reach = (level_->width() + side - 2) / side;  // row r has the blocks r to r + reach
+    const int side = std::clamp(level.width / 32, 1, 16);
+    const int rows = (level.height + side - 1) / side;
+    const int reach = (level.width + side - 2) / side;  // row r has the blocks r to r + reach
     const int fronts = 2 * (rows - 1) + reach + 1;
     for (int front = 0; front < fronts; ++front) {
       const int first = std::max(0, (front - reach + 1) / 2);
       const int last = std::min(rows - 1, front / 2);
       tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& range) {
-        Workspace& workspace = workspaces_->local();
+        Workspace& workspace = workspaces.local();
         for (int row = range.begin(); row < range.end(); ++row) fit_block(front - row, row, side, workspace);
       });
       report((front + 1.0) / fronts);
@@ -87,35 +67,35 @@ class LevelFit {
   }
 
   void fit_block(int column, int row, int side, Workspace& workspace) const {
-    const int past = std::min((row + 1) * side, level_->height());
+    const int past = std::min((row + 1) * side, level.height);
     for (int y = row * side; y < past; ++y) {
-      const int end = std::min((column + 1) * side - y, level_->width());
+      const int end = std::min((column + 1) * side - y, level.width);
       for (int x = std::max(column * side - y, 0); x < end; ++x) fit(x, y, workspace);
     }
   }
 
   void run_rows(const std::function<void(double)>& report) const {
-    for (int y = 0; y < level_->height(); ++y) {
-      tbb::parallel_for(tbb::blocked_range<int>(0, level_->width()), [&](const tbb::blocked_range<int>& columns) {
-        Workspace& workspace = workspaces_->local();
+    for (int y = 0; y < level.height; ++y) {
+      tbb::parallel_for(tbb::blocked_range<int>(0, level.width), [&](const tbb::blocked_range<int>& columns) {
+        Workspace& workspace = workspaces.local();
         for (int x = columns.begin(); x < columns.end(); ++x) fit(x, y, workspace);
       });
-      report((y + 1.0) / level_->height());
+      report((y + 1.0) / level.height);
     }
   }
 
   [[nodiscard]] std::span<const Gaussian> parent(int x, int y) const {
-    if (coarser_ == nullptr || !settings_->align) return {};
-    return coarser_->at(std::min(x / 2, coarser_->width() - 1), std::min(y / 2, coarser_->height() - 1));
+    if (coarser == nullptr || !settings.align) return {};
+    return coarser->at(std::min(x / 2, coarser->width - 1), std::min(y / 2, coarser->height - 1));
   }
 
   [[nodiscard]] Prior prior(int x, int y) const {
-    Prior prior(settings_->prior_weight);
-    if (!settings_->align) return prior;
+    Prior prior(settings.prior_weight);
+    if (!settings.align) return prior;
     constexpr std::array<std::pair<int, int>, 4> done{{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
     for (const auto& [dx, dy] : done) {
-      const bool inside = x + dx >= 0 && x + dx < level_->width() && y + dy >= 0;
-      if (inside) prior.add(std::as_const(*level_).at(x + dx, y + dy));
+      const bool inside = x + dx >= 0 && x + dx < level.width && y + dy >= 0;
+      if (inside) prior.add(level.at(x + dx, y + dy));
     }
     prior.add(parent(x, y));
     return prior;
@@ -123,18 +103,18 @@ class LevelFit {
 
   void fit(int x, int y, Workspace& workspace) const {
     Samples& samples = workspace.samples;
-    tiles_->gather(level_->width(), level_->height(), x, y, samples);
-    const double coverage = normals_->coverage(level_->width(), level_->height(), samples);
+    tiles.gather(level.width, level.height, x, y, samples);
+    const double coverage = normals.coverage(level.width, level.height, samples);
     merge_repeats(samples);
     workspace.cells.pool(samples);
-    const std::span<Gaussian> mixture = level_->at(x, y);
+    const std::span<Gaussian> mixture = level.at(x, y);
     const Prior known = prior(x, y);
-    fit_texel(samples, known, parent(x, y), *settings_, mixture);
-    if (settings_->full_covariance) {
+    fit_texel(samples, known, parent(x, y), settings, mixture);
+    if (settings.full_covariance) {
       fit_whole(samples, known, coverage, mixture, x, y);
       return;
     }
-    for (std::size_t i = 0; i < mixture.size(); ++i) store(mixture[i], coverage, stored_[i].at(x, y));
+    for (std::size_t i = 0; i < mixture.size(); ++i) store(mixture[i], coverage, stored[i].at(x, y));
   }
 
   // Fits full covariances from the isotropic mixture, and replaces it by their round Gaussians for the neighbours.
@@ -142,7 +122,7 @@ class LevelFit {
                  int y) const {
     std::array<FullGaussian, most_components> storage{};
     const std::span<FullGaussian> full(storage.data(), mixture.size());
-    fit_full(samples, known, *settings_, mixture, full);
+    fit_full(samples, known, settings, mixture, full);
     for (std::size_t i = 0; i < full.size(); ++i) {
       mixture[i] = rounded(full[i]);
       const FullGaussian& g = full[i];
@@ -150,7 +130,7 @@ class LevelFit {
       const std::array<double, 6> moments{1.0, g.x, g.y, g.xx + g.x * g.x, g.xy + g.x * g.y, g.yy + g.y * g.y};
       for (std::size_t c = 0; c < moments.size(); ++c) {
         const std::size_t channel = moments.size() * i + c;
-        stored_[channel / 4].at(x, y)[channel % 4] = static_cast<float>(alpha * moments[c]);
+        stored[channel / 4].at(x, y)[channel % 4] = static_cast<float>(alpha * moments[c]);
       }
     }
   }
@@ -163,17 +143,8 @@ class LevelFit {
     texel[0] = static_cast<float>(alpha);
     texel[1] = static_cast<float>(alpha * g.x);
     texel[2] = static_cast<float>(alpha * g.y);
-    texel[3] = static_cast<float>(alpha * (square + (moment_ == Moment::corrected ? 2.0 : 1.0) * variance));
+    texel[3] = static_cast<float>(alpha * (square + (moment == Moment::corrected ? 2.0 : 1.0) * variance));
   }
-
-  const NormalField* normals_;
-  const PooledTiles* tiles_;
-  const FitSettings* settings_;
-  Moment moment_;
-  const Level* coarser_;
-  Level* level_;
-  std::span<Image> stored_;
-  tbb::enumerable_thread_specific<Workspace>* workspaces_;
 };
 
 }  // namespace
@@ -184,15 +155,15 @@ MixtureChain mixture_chain(const NormalField& normals, const FitSettings& settin
   MixtureChain chain(layers_of(settings), std::vector<Image>(static_cast<std::size_t>(levels)));
   const PooledTiles tiles(normals);
   tbb::enumerable_thread_specific<Workspace> workspaces;
-  Level coarser(0, 0, settings.components);
+  Level coarser{0, 0, settings.components};
   for (int index = levels - 1; index >= 0; --index) {
     const int width = std::max(normals.width() >> index, 1);
     const int height = std::max(normals.height() >> index, 1);
-    Level level(width, height, settings.components);
+    Level level{width, height, settings.components};
     std::vector<Image> stored;  // constructed in place: copies took a tenth of an easy map's fit
     for (std::size_t i = 0; i < chain.size(); ++i) stored.emplace_back(width, height, 4);
-    const LevelFit fit(normals, tiles, settings, moment, index == levels - 1 ? nullptr : &coarser, level, stored,
-                       workspaces);
+    const LevelFit fit{normals, tiles,  settings,  moment, index == levels - 1 ? nullptr : &coarser,
+                       level,   stored, workspaces};
     const std::string what = fmt::format("fitting mixtures, {} x {}", width, height);
     const int done = levels - 1 - index;  // each level takes about as long, because it visits every normal
     fit.run([&](double fraction) { progress(what, (done + fraction) / levels); });

@@ -56,14 +56,6 @@ std::vector<OptionSpec> option_table() {
                   "lost, or cut off there, as in the paper.")};
 }
 
-// The options that the bake reads.
-struct Settings {
-  tan_gmm::FitSettings fit;
-  tan_gmm::Moment moment;
-  Storage storage;
-  bool joint_colour;  // texels weigh by the luminance of their specular colour
-};
-
 tan_gmm::Start start_of(const std::string& init) {
   if (init == "dense_seed") return tan_gmm::Start::dense_seed;
   return init == "kmeans" ? tan_gmm::Start::clusters : tan_gmm::Start::inherit;
@@ -74,17 +66,14 @@ tan_gmm::VarianceStep variance_of(const std::string& variance) {
   return variance == "published" ? tan_gmm::VarianceStep::published : tan_gmm::VarianceStep::published_share;
 }
 
-Settings settings_of(const Options& options) {
-  return {.fit = {.components = static_cast<std::size_t>(options.number("n")),
-                  .align = options.word("align") == "on",
-                  .m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published,
-                  .variance = variance_of(options.word("variance")),
-                  .start = start_of(options.word("init")),
-                  .full_covariance = options.word("covariance") == "full",
-                  .prior_weight = options.number("c")},
-          .moment = options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published,
-          .storage = parse_storage(options.word("storage")),
-          .joint_colour = options.word("specular") == "joint"};
+tan_gmm::FitSettings fit_settings(const Options& options) {
+  return {.components = static_cast<std::size_t>(options.number("n")),
+          .align = options.word("align") == "on",
+          .m_step = options.word("m_step") == "exact" ? tan_gmm::MStep::exact : tan_gmm::MStep::published,
+          .variance = variance_of(options.word("variance")),
+          .start = start_of(options.word("init")),
+          .full_covariance = options.word("covariance") == "full",
+          .prior_weight = options.number("c")};
 }
 
 // The specular weight of each texel of a map; 1, with a note, where the colours lie elsewhere.
@@ -119,8 +108,9 @@ void add_weighed_variance(const Material& material, Storage storage, RoughnessMe
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
-  const auto [fit, moment, storage, joint_colour] = settings_of(options);
-  const bool coloured = joint_colour && has(effects, Effect::specular_variation);
+  const tan_gmm::FitSettings fit = fit_settings(options);
+  const Storage storage = parse_storage(options.word("storage"));
+  const bool coloured = options.word("specular") == "joint" && has(effects, Effect::specular_variation);
   if (fit.full_covariance && has(effects, Effect::multi_lobe)) {
     throw Error(ErrorKind::usage, "tan_gmm:covariance=full", "the scene's facets have several lobes each",
                 "use covariance=isotropic");
@@ -128,6 +118,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   Prefiltered out;
   if (has(effects, Effect::normal_variation)) {
     const tan_gmm::NormalField normals(normals_of(material, coloured, out));  // and the decoded map is freed
+    const auto moment = options.word("moment") == "corrected" ? tan_gmm::Moment::corrected : tan_gmm::Moment::published;
     tan_gmm::MixtureChain chain = tan_gmm::mixture_chain(normals, fit, moment, progress);
     const char* const name = fit.full_covariance ? "tan_gmm_moments" : "tan_gmm_mixture";
     out.textures.push_back(make_array_texture(name, std::move(chain), storage, normal_coordinates(material)));
@@ -156,7 +147,7 @@ const Method& tan_gmm_method() {
                .slow_precompute = true},
       .precompute = precompute,
       .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}, {"part_colours", false}}),
-      .lobe_count = [](const Options& options) { return static_cast<int>(settings_of(options).fit.components); }};
+      .lobe_count = [](const Options& options) { return static_cast<int>(fit_settings(options).components); }};
   return method;
 }
 

@@ -123,34 +123,11 @@ struct Matching {
 // The fewest samples for a useful histogram.
 constexpr std::size_t fewest_for_histogram = 32;
 
-// Runs a few steps of EM from each start, and keeps the best.
-class Trials {
- public:
-  Trials(const Samples& samples, const Prior& prior, const FitSettings& settings, std::span<Gaussian> best)
-      : samples_(&samples), prior_(&prior), settings_(&settings), best_(best) {}
-
-  void take(std::span<Gaussian> start) {
-    const double posterior = iterate(*samples_, *prior_, settings_->m_step, settings_->trial_iterations,
-                                     settings_->tolerance, start, settings_->variance);
-    if (posterior <= greatest_) return;
-    greatest_ = posterior;
-    std::ranges::copy(start, best_.begin());
-  }
-
- private:
-  const Samples* samples_;
-  const Prior* prior_;
-  const FitSettings* settings_;
-  std::span<Gaussian> best_;
-  double greatest_ = -std::numeric_limits<double>::infinity();
-};
-
 // Whether all samples are one normal, up to rounding.
 bool are_one_normal(const Samples& samples) {
   for (std::size_t j = 1; j < samples.size(); ++j) {
-    const float dx = samples.x[j] - samples.x[0];
-    const float dy = samples.y[j] - samples.y[0];
-    if (dx * dx + dy * dy > 1e-12F || samples.spread[j] > 0.0F) return false;
+    const bool apart = squared_distance(samples, j, {samples.x[0], samples.y[0]}) > same_point;
+    if (apart || samples.spread[j] > 0.0F) return false;
   }
   return true;
 }
@@ -171,21 +148,29 @@ void start_from_clusters(const Samples& samples, const Prior& prior, std::span<G
   match_order(prior, mixture);
 }
 
+// Runs a few steps of EM from each start, and keeps the best.
 void start_from_best(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
                      const FitSettings& settings, std::span<Gaussian> mixture) {
   std::array<Gaussian, most_components> storage{};
   const std::span<Gaussian> start(storage.data(), mixture.size());
-  Trials trials(samples, prior, settings, mixture);
+  double greatest = -std::numeric_limits<double>::infinity();
+  const auto try_start = [&] {
+    const double posterior = iterate(samples, prior, settings.m_step, settings.trial_iterations, settings.tolerance,
+                                     start, settings.variance);
+    if (posterior <= greatest) return;
+    greatest = posterior;
+    std::ranges::copy(start, mixture.begin());
+  };
   start_from_clusters(samples, prior, start);
-  trials.take(start);
+  try_start();
   if (mixture.size() > 1 && samples.size() >= fewest_for_histogram) {
     dense_start(samples, start);
     match_order(prior, start);
-    trials.take(start);
+    try_start();
   }
   if (!parent.empty()) {
     std::ranges::copy(parent, start.begin());
-    trials.take(start);
+    try_start();
   }
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "methods/best_lobes/lobe_shapes.hpp"
-#include "methods/best_lobes/other_methods.hpp"
 #include "methods/best_lobes/starts.hpp"
 #include "methods/fournier/peak_chain.hpp"
 #include "renderer/bake/material_maps.hpp"
@@ -152,8 +151,9 @@ class Fitter {
   mutable std::atomic<std::size_t> not_resolved_ = 0;
 };
 
-void add_lobes(const Material& material, const Settings& settings, bool roughness_varies, const Progress& progress,
+void add_lobes(const Material& material, const Settings& settings, const EffectSet& effects, const Progress& progress,
                Prefiltered& out) {
+  const bool roughness_varies = has(effects, Effect::roughness_variation);
   const Image normals = normal_map_of(material);
   const bool joint = roughness_varies && roughness_lies_on_normals(material);
   best_lobes::RoughnessGroups groups;
@@ -172,35 +172,23 @@ void add_lobes(const Material& material, const Settings& settings, bool roughnes
        .group_spreads = groups.spreads},
       [&](const auto& place, const auto& target, const auto& /*children*/) { return fitter.fit(place, target); },
       [&](std::string_view what, double fraction) { progress(what, 0.1 + 0.9 * fraction); });
-  if (chain.statistics.not_converged > 0) out.notes.push_back(fournier::note_on(chain.statistics));
+  const std::size_t fits = chain.statistics.fits;
+  fournier::add_peaks("best_lobes", std::move(chain), material, Storage::fp32, effects, out);
   if (fitter.not_resolved() > 0)
     out.notes.push_back(
         fmt::format("{} of {} texels have too many directions for so narrow a base lobe: they are "
                     "fitted under a wider one and are no bound",
-                    fitter.not_resolved(), chain.statistics.fits));
+                    fitter.not_resolved(), fits));
   if (roughness_varies && !joint)
     out.notes.emplace_back(
         "the roughness map does not lie on the normal map's texels: lobes are fitted for the mean of "
         "all roughness and are no bound");
-  const TextureCoordinates coordinates = normal_coordinates(material);
-  std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
-  first.push_back(std::move(chain.first));
-  out.textures.push_back(
-      make_array_texture("best_lobes_first", std::move(first), Storage::fp32, coordinates, TextureFilter::nearest));
-  out.textures.push_back(
-      make_array_texture("best_lobes_rest", std::move(chain.rest), Storage::fp32, coordinates, TextureFilter::nearest));
 }
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
   Prefiltered out;
-  if (has(effects, Effect::normal_variation)) {
-    add_lobes(material, settings_of(options), has(effects, Effect::roughness_variation), progress, out);
-    if (has(effects, Effect::diffuse)) {
-      out.textures.push_back(
-          make_texture("best_lobes_mean", mean_normal_chain(material), Storage::fp32, normal_coordinates(material)));
-    }
-  }
+  if (has(effects, Effect::normal_variation)) add_lobes(material, settings_of(options), effects, progress, out);
   append(out.textures, bake_lobe_variance(material, Storage::fp32, effects).textures);
   return out;
 }

@@ -1,7 +1,9 @@
 // Computes moments in 64 bits from the rounded 32-bit first moments that are stored.
-#include "methods/cells/cell_moments.hpp"
+#include "methods/cells/partition.hpp"
 
 #include <cmath>
+
+#include "renderer/image/mipmap.hpp"
 
 namespace footprint::cells {
 namespace {
@@ -36,17 +38,28 @@ glm::dvec2 principal_axis(const PlaneSums& sums) {
 
 }  // namespace
 
-std::array<PartFrame, most_parts> part_frames(std::span<const PlanePoint> points, std::span<const float> shares,
-                                              std::size_t parts, Covariance covariance) {
+PartedPoints parted_points(const Image& normals, double steepest, std::span<const double> variances,
+                           const PartitionSettings& settings, const Progress& progress) {
+  PartedPoints out{plane_points(normals, Coordinates::stereographic, steepest),
+                   {},
+                   static_cast<std::size_t>(settings.parts),
+                   normals.width,
+                   normals.height};
+  out.shares = partition_with_roughness(out.points, variances, out.width, out.height, settings, progress);
+  return out;
+}
+
+std::array<PartFrame, most_parts> part_frames(const PartedPoints& map, Covariance covariance) {
   std::array<PlaneSums, most_parts> sums{};
   PlaneSums all;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    all.add(points[i].at, points[i].weight);
-    for (std::size_t k = 0; k < parts; ++k)
-      sums[k].add(points[i].at, points[i].weight * static_cast<double>(shares[i * parts + k]));
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const PlanePoint& point = map.points[i];
+    all.add(point.at, point.weight);
+    for (std::size_t k = 0; k < map.parts; ++k)
+      sums[k].add(point.at, point.weight * static_cast<double>(map.shares[i * map.parts + k]));
   }
   std::array<PartFrame, most_parts> frames{};
-  for (std::size_t k = 0; k < parts; ++k) {
+  for (std::size_t k = 0; k < map.parts; ++k) {
     const PlaneSums& own = sums[k].weight > 1e-9 * all.weight ? sums[k] : all;
     if (own.weight <= 0.0) continue;
     frames[k].centre = own.first / own.weight;
@@ -87,6 +100,19 @@ Image value_layer(const PartedPoints& map, const Image& values, int layer) {
     }
   }
   return out;
+}
+
+std::vector<std::vector<Image>> layer_chains(int layers, const std::function<Image(int)>& finest) {
+  std::vector<std::vector<Image>> chains;
+  chains.reserve(static_cast<std::size_t>(layers));
+  for (int layer = 0; layer < layers; ++layer) chains.push_back(mip_chain(finest(layer)));
+  return chains;
+}
+
+std::vector<std::vector<Image>> moment_chains(const PartedPoints& map, const std::array<PartFrame, most_parts>& frames,
+                                              Covariance covariance) {
+  return layer_chains(layer_count(part_channels(covariance) * static_cast<int>(map.parts)),
+                      [&](int layer) { return moment_layer(map, frames, covariance, layer); });
 }
 
 }  // namespace footprint::cells

@@ -1,5 +1,5 @@
 // Moments of each part against plain sums over texels, at every level and under any weights of a filter.
-#include "methods/cells/cell_moments.hpp"
+#include "methods/cells/partition.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(CellMoments, TheCoarsestLevelHasTheSumsOverAllTexels) {
   const Map map;
   for (const auto& [covariance, channels] :
        {std::pair{Covariance::full, std::vector<std::size_t>{0, 1, 2, 3, 4, 5}}, {Covariance::axes, {0, 1, 2, 3, 5}}}) {
-    const auto frames = part_frames(map.points, map.shares, part_count, covariance);
+    const auto frames = part_frames(parted(map), covariance);
     ASSERT_EQ(part_channels(covariance), static_cast<int>(channels.size()));
     for (int layer = 0; layer < layer_count(part_channels(covariance) * static_cast<int>(part_count)); ++layer) {
       const Image top = mip_chain(moment_layer(parted(map), frames, covariance, layer)).back();
@@ -75,8 +75,8 @@ TEST(CellMoments, TheCoarsestLevelHasTheSumsOverAllTexels) {
 // spread is lost at the coarsest level.
 TEST(CellMoments, FramesAreTheMeansAndAxesOfTheParts) {
   const Map map;
-  const auto frames = part_frames(map.points, map.shares, part_count, Covariance::axes);
-  const auto upright = part_frames(map.points, map.shares, part_count, Covariance::full);
+  const auto frames = part_frames(parted(map), Covariance::axes);
+  const auto upright = part_frames(parted(map), Covariance::full);
   for (std::size_t k = 0; k < part_count; ++k) {
     const auto sums = expected(map, frames[k], k);
     EXPECT_NEAR(sums[1], 0.0, 1e-12);
@@ -91,7 +91,7 @@ TEST(CellMoments, FramesAreTheMeansAndAxesOfTheParts) {
     empty_second.push_back(1.0F);
     empty_second.push_back(0.0F);
   }
-  const auto of_two = part_frames(map.points, empty_second, 2, Covariance::axes);
+  const auto of_two = part_frames({map.points, empty_second, 2, width, height}, Covariance::axes);
   EXPECT_EQ(of_two[0], of_two[1]) << "a part without texels has the mean and the axes of all";
 }
 
@@ -112,7 +112,7 @@ TEST(CellMoments, VarianceIsThatOfThePartsOwnTexels) {
   const Map map;
   Image variance(width, height, 1);
   for (std::size_t i = 0; i < variance.texels.size(); ++i) variance.texels[i] = 0.01F * static_cast<float>(i % 5);
-  const Image top = mip_chain(value_layer({map.points, map.shares, part_count, width, height}, variance, 0)).back();
+  const Image top = mip_chain(value_layer(parted(map), variance, 0)).back();
   for (std::size_t k = 0; k < part_count; ++k) {
     double sum = 0.0;
     for (std::size_t i = 0; i < map.points.size(); ++i)
@@ -121,7 +121,7 @@ TEST(CellMoments, VarianceIsThatOfThePartsOwnTexels) {
     EXPECT_NEAR(top.texels[k], sum / (width * height), 1e-8);
   }
   EXPECT_EQ(top.texels[3], 0.0F);
-  const Image one = value_layer({map.points, map.shares, part_count, width, height}, Image(1, 1, 1, 0.5F), 0);
+  const Image one = value_layer(parted(map), Image(1, 1, 1, 0.5F), 0);
   EXPECT_NEAR(one.texels[4], 0.5 * map.shares[part_count], 1e-7) << "all of it is under one texel";
 }
 

@@ -1,7 +1,10 @@
 // Normals as weighted points of a plane, their anisotropic Gaussians, and their partition: the share of each texel in
-// each part, the same for all levels.
+// each part, the same for all levels. And what a texel stores of each part: weight, first and second moments along the
+// axes of the part about its centre, and values of the texel. All are linear in the texels below.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -94,5 +97,58 @@ struct PartitionSettings {
 [[nodiscard]] std::vector<float> partition_with_roughness(std::span<const PlanePoint> points,
                                                           std::span<const double> variances, int width, int height,
                                                           const PartitionSettings& settings, const Progress& progress);
+
+/// The stored second moments of a part. full: all three, along the axes of the plane. axes: two, along the axes of the
+/// part, in which the third is 0 over the whole map.
+enum class Covariance { full, axes };
+
+/// Channels per part: w, w dx, w dy, w dx^2, w dx dy, w dy^2 with d the distance from the part's centre along its axes.
+/// `axes` leaves out w dx dy.
+[[nodiscard]] constexpr int part_channels(Covariance covariance) { return covariance == Covariance::full ? 6 : 5; }
+
+/// The origin and the axes of a part's moments.
+struct PartFrame {
+  glm::dvec2 centre{0.0};
+  glm::dvec2 axis{1.0, 0.0};  ///< unit; the second axis is a quarter turn counter-clockwise
+
+  [[nodiscard]] bool operator==(const PartFrame&) const = default;
+};
+
+/// The points of a whole map and their shares in the parts, row by row.
+struct PartedPoints {
+  std::vector<PlanePoint> points;
+  std::vector<float> shares;
+  std::size_t parts;
+  int width, height;
+};
+
+/// The stereographic points of a normal map (as plane_points) and their shares by partition_with_roughness.
+[[nodiscard]] PartedPoints parted_points(const Image& normals, double steepest, std::span<const double> variances,
+                                         const PartitionSettings& settings, const Progress& progress);
+
+/// The mean of each part over the whole map and, with `axes`, the direction of its largest spread. Parts without texels
+/// have those of all texels.
+[[nodiscard]] std::array<PartFrame, most_parts> part_frames(const PartedPoints& map, Covariance covariance);
+
+/// The finest level of one layer: channels 4 layer to 4 layer + 3 of the channels of all parts in sequence, 0 beyond
+/// the last part. The weights of a texel sum to the weight of its normal.
+[[nodiscard]] Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_parts>& frames,
+                                 Covariance covariance, int layer);
+
+/// Layers of four channels for `channels` of all parts together.
+[[nodiscard]] constexpr int layer_count(int channels) { return (channels + 3) / 4; }
+
+/// The finest level of w v for parts 4 layer and following. v is the value of `values` (one channel) at the texel's
+/// centre.
+[[nodiscard]] Image value_layer(const PartedPoints& map, const Image& values, int layer);
+
+/// The mip chains of layers by their finest levels, made one after the other, because all finest levels together would
+/// be the largest allocation of the bake.
+[[nodiscard]] std::vector<std::vector<Image>> layer_chains(int layers, const std::function<Image(int layer)>& finest);
+
+/// Those of moment_layer.
+[[nodiscard]] std::vector<std::vector<Image>> moment_chains(const PartedPoints& map,
+                                                            const std::array<PartFrame, most_parts>& frames,
+                                                            Covariance covariance);
 
 }  // namespace footprint::cells

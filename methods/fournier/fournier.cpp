@@ -17,17 +17,12 @@ namespace {
 
 // The options that the bake reads.
 struct Settings {
-  std::size_t peaks;
-  fournier::FitRule rule;
-  Storage storage;
+  const Options& options;
+  std::size_t peaks = static_cast<std::size_t>(options.number("peaks"));
+  fournier::FitRule rule{.start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited,
+                         .evaluations = static_cast<int>(options.number("evaluations"))};
+  Storage storage = parse_storage(options.word("storage"));
 };
-
-Settings settings_of(const Options& options) {
-  return {.peaks = static_cast<std::size_t>(options.number("peaks")),
-          .rule = {.start = options.word("starts") == "own" ? fournier::Start::own : fournier::Start::inherited,
-                   .evaluations = static_cast<int>(options.number("evaluations"))},
-          .storage = parse_storage(options.word("storage"))};
-}
 
 // The slope variance of the lobe that peaks are fitted with: the mean if the roughness varies or facets have several
 // lobes.
@@ -36,29 +31,15 @@ double base_variance(const Material& material) {
   return lobe_variance_chain(material).back().texels.front();
 }
 
-void add_peaks(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
-  fournier::PeakChain chain = fournier::fit_peak_chain(normal_map_of(material), base_variance(material), settings.peaks,
-                                                       settings.rule, progress);
-  if (chain.statistics.not_converged > 0) out.notes.push_back(fournier::note_on(chain.statistics));
-  const TextureCoordinates coordinates = normal_coordinates(material);
-  std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
-  first.push_back(std::move(chain.first));
-  out.textures.push_back(
-      make_array_texture("fournier_first", std::move(first), settings.storage, coordinates, TextureFilter::nearest));
-  out.textures.push_back(make_array_texture("fournier_rest", std::move(chain.rest), settings.storage, coordinates,
-                                            TextureFilter::nearest));
-}
-
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
-  const Settings settings = settings_of(options);
+  const Settings settings{options};
   Prefiltered out;
   if (has(effects, Effect::normal_variation)) {
-    add_peaks(material, settings, progress, out);
-    if (has(effects, Effect::diffuse)) {
-      out.textures.push_back(
-          make_texture("fournier_mean", mean_normal_chain(material), settings.storage, normal_coordinates(material)));
-    }
+    fournier::add_peaks("fournier",
+                        fournier::fit_peak_chain(normal_map_of(material), base_variance(material), settings.peaks,
+                                                 settings.rule, progress),
+                        material, settings.storage, effects, out);
   }
   append(out.textures, bake_lobe_variance(material, settings.storage, effects, roughness_mean(options)).textures);
   return out;
@@ -88,7 +69,7 @@ const Method& fournier_method() {
            .bakes_by_texel = true},
       .precompute = precompute,
       .shader = module_of(fournier_glsl, "fournier.glsl"),
-      .lobe_count = [](const Options& options) { return 8 * static_cast<int>(settings_of(options).peaks); }};
+      .lobe_count = [](const Options& options) { return 8 * static_cast<int>(Settings{options}.peaks); }};
   return method;
 }
 

@@ -1,5 +1,5 @@
 // Products of lobes against the integral over the sphere, and their derivatives against differences.
-#include "methods/fournier/peak_fit.hpp"
+#include "methods/fournier/peaks.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -10,8 +10,9 @@
 #include <cmath>
 #include <utility>
 
-#include "methods/fournier/peak_fit.hpp"
 #include "methods/fournier/peaks.hpp"
+#include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/normal_chain.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint::fournier {
@@ -178,13 +179,6 @@ class ChainBuilder {
 
 }  // namespace
 
-std::string note_on(const FitStatistics& statistics) {
-  return fmt::format(
-      "{} of {} fits of peaks stopped before they converged; the mean error of all is {:.2g} of the distribution's "
-      "norm",
-      statistics.not_converged, statistics.fits, statistics.mean_error);
-}
-
 Layer layer_of(const Peak& peak) {
   const Eigen::Vector2d on_disc = disc_from_direction(peak.axis);
   return {static_cast<float>(on_disc.x()), static_cast<float>(on_disc.y()), static_cast<float>(std::sqrt(peak.spread)),
@@ -194,6 +188,25 @@ Layer layer_of(const Peak& peak) {
 PeakChain fit_chain(const Image& normals, const ChainSettings& settings, const FitTexel& fit,
                     const Progress& progress) {
   return ChainBuilder(normals, settings, fit, progress).build();
+}
+
+void add_peaks(const std::string& method, PeakChain chain, const Material& material, Storage storage,
+               const EffectSet& effects, Prefiltered& out) {
+  if (chain.statistics.not_converged > 0) {
+    out.notes.push_back(fmt::format(
+        "{} of {} fits of peaks stopped before they converged; the mean error of all is {:.2g} of the distribution's "
+        "norm",
+        chain.statistics.not_converged, chain.statistics.fits, chain.statistics.mean_error));
+  }
+  const TextureCoordinates coordinates = normal_coordinates(material);
+  std::vector<std::vector<Image>> first;  // an initializer list would copy the chain
+  first.push_back(std::move(chain.first));
+  out.textures.push_back(
+      make_array_texture(method + "_first", std::move(first), storage, coordinates, TextureFilter::nearest));
+  out.textures.push_back(
+      make_array_texture(method + "_rest", std::move(chain.rest), storage, coordinates, TextureFilter::nearest));
+  if (has(effects, Effect::diffuse))
+    out.textures.push_back(make_texture(method + "_mean", mean_normal_chain(material), storage, coordinates));
 }
 
 PeakChain fit_peak_chain(const Image& normals, double base_variance, std::size_t count, FitRule rule,

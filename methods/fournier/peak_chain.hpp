@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "methods/fournier/peak_fit.hpp"
 #include "methods/fournier/peaks.hpp"
+#include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/image/image.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint::fournier {
 
@@ -22,9 +24,6 @@ struct FitStatistics {
   std::size_t not_converged = 0;
   double mean_error = 0.0;  ///< over all fitted texels
 };
-
-/// What tables say of them.
-[[nodiscard]] std::string note_on(const FitStatistics& statistics);
 
 /// Peaks as images with 4 channels: axis on Lambert's disc (x, y), root of the spread (deviation), weight. The peaks of
 /// a texel are sorted, heaviest first, and their weights sum to the share of its area that has normals.
@@ -70,6 +69,11 @@ struct ChainSettings {
 /// this thread only. Equal results at any number of threads.
 [[nodiscard]] PeakChain fit_chain(const Image& normals, const ChainSettings& settings, const FitTexel& fit,
                                   const Progress& progress);
+
+/// Adds the textures METHOD_first and METHOD_rest of a chain over a material's normal map, METHOD_mean (the mean
+/// normal) with Effect::diffuse, and a note on fits that stopped early.
+void add_peaks(const std::string& method, PeakChain chain, const Material& material, Storage storage,
+               const EffectSet& effects, Prefiltered& out);
 
 /// The start of a texel's fit: the merged peaks of the finer texels below it, or its own heaviest normals.
 enum class Start { inherited, own };

@@ -13,7 +13,7 @@
 //   l_c = B ka kb                        l_cc = D (ka kb)^2
 //   l_a = B (ka + kb c) - A(ka)          l_ac = D ka kb (ka + kb c) + B kb      (and with a, b exchanged)
 //                                        l_ab = D (ka + kb c) (kb + ka c) + B c
-#include "methods/fournier/peak_fit.hpp"
+#include "methods/fournier/peaks.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Fits of peaks to targets that are known.
-#include "methods/fournier/peak_fit.hpp"
+#include "methods/fournier/peaks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "methods/cells/cell_moments.hpp"
+#include "methods/cells/partition.hpp"
 #include "methods/ndf_atlas/atlas.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
@@ -45,24 +45,15 @@ std::vector<OptionSpec> option_table() {
 
 // The options that the bake reads.
 struct Settings {
-  int level;
-  double step;
-  int nodes;
-  double megabytes;
-  Storage tables;
-  int parts;
-  Storage storage;
+  const Options& options;
+  int level = static_cast<int>(options.number("level"));
+  double step = options.number("step");
+  int nodes = static_cast<int>(options.number("nodes"));
+  double megabytes = options.number("megabytes");
+  Storage tables = parse_storage(options.word("tables"));
+  int parts = static_cast<int>(options.number("k"));
+  Storage storage = parse_storage(options.word("storage"));
 };
-
-Settings settings_of(const Options& options) {
-  return {.level = static_cast<int>(options.number("level")),
-          .step = options.number("step"),
-          .nodes = static_cast<int>(options.number("nodes")),
-          .megabytes = options.number("megabytes"),
-          .tables = parse_storage(options.word("tables")),
-          .parts = static_cast<int>(options.number("k")),
-          .storage = parse_storage(options.word("storage"))};
-}
 
 // Lattice and layout of a material's tables; without facets the material has no tables, and a note gives the reason.
 struct Plan {
@@ -126,35 +117,25 @@ void add_tables(Plan plan, const Material& material, Storage storage, const Prog
   std::ranges::move(plan.notes, std::back_inserter(out.notes));
 }
 
-constexpr cells::Covariance stored_moments = cells::Covariance::full;
-
 // Partitions the normals and adds the moments of each part, as `cells` does.
 void add_parts(const Material& material, const Settings& settings, const Progress& progress, Prefiltered& out) {
-  const Image normals = normal_map_of(material);
-  const auto points = cells::plane_points(normals, cells::Coordinates::stereographic, steepest_slope);
-  const cells::PartitionSettings partition{.parts = settings.parts,
-                                           .variance = lobe_variance_chain(material).back().texels[0]};
-  const std::vector<float> shares = cells::partition(points, normals.width, normals.height, partition, progress);
-  const auto parts = static_cast<std::size_t>(settings.parts);
-  const auto frames = cells::part_frames(points, shares, parts, stored_moments);
+  constexpr cells::Covariance covariance = cells::Covariance::full;
+  const cells::PartedPoints map = cells::parted_points(
+      normal_map_of(material), steepest_slope, {},
+      {.parts = settings.parts, .variance = lobe_variance_chain(material).back().texels[0]}, progress);
+  const auto frames = cells::part_frames(map, covariance);
   for (std::size_t k = 0; k < most_parts; ++k) {
     out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(frames[k].centre.x);
     out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(frames[k].centre.y);
   }
-  const int layers = cells::layer_count(cells::part_channels(stored_moments) * settings.parts);
-  std::vector<std::vector<Image>> chains;
-  chains.reserve(static_cast<std::size_t>(layers));
-  const cells::PartedPoints map{points, shares, parts, normals.width, normals.height};
-  for (int layer = 0; layer < layers; ++layer)
-    chains.push_back(mip_chain(cells::moment_layer(map, frames, stored_moments, layer)));
   // The shader reads them by level, because the levels that have tables do not need them.
-  out.textures.push_back(make_array_texture("ndf_atlas_moments", std::move(chains), settings.storage,
-                                            normal_coordinates(material), TextureFilter::by_level));
+  out.textures.push_back(make_array_texture("ndf_atlas_moments", cells::moment_chains(map, frames, covariance),
+                                            settings.storage, normal_coordinates(material), TextureFilter::by_level));
 }
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
-  const Settings settings = settings_of(options);
+  const Settings settings{options};
   Prefiltered out = bake_lobe_variance(material, settings.storage, effects);
   if (!has(effects, Effect::normal_variation)) return out;
   append(out.textures, bake_mean_normal(material, settings.storage, effects).textures);
@@ -178,7 +159,7 @@ const Method& ndf_atlas_method() {
                .slow_precompute = true},
       .precompute = precompute,
       .shader = module_of(ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}}),
-      .lobe_count = [](const Options& options) { return settings_of(options).parts; }};
+      .lobe_count = [](const Options& options) { return Settings{options}.parts; }};
   return method;
 }
 

@@ -63,6 +63,37 @@ double chan(double alpha2, double q) {
   return squared(0.5 * (low + high));
 }
 
+enum class Stored { inverse_kappa, toksvig, shortfall };
+constexpr double largest_stored = 100;
+
+// What a texel stores, and alpha'^2 of alpha^2 over it.
+struct Rule {
+  Stored stored = Stored::inverse_kappa;
+  double (*widened)(double alpha2, double stored) = nullptr;
+};
+
+const Rule& rule_of(Preset preset) {
+  using enum Stored;
+  static constexpr std::array<Rule, preset_names.size()> rules{
+      {{},  // fit: by distribution
+       {inverse_kappa, [](double alpha2, double v) { return alpha2 + 2.0 * v; }},
+       {inverse_kappa,
+        [](double alpha2, double v) { return squared(std::sqrt(alpha2) + 2.0 * v); }},  // on rho^2 = alpha
+       {inverse_kappa, [](double alpha2, double v) { return alpha2 + std::min(0.5 * v, unity_cap); }},
+       {inverse_kappa, [](double alpha2, double v) { return projected(alpha2, std::min(0.5 * v, unity_cap)); }},
+       {inverse_kappa, [](double alpha2, double v) { return alpha2 + std::min(0.5 * v, hdrp_cap); }},
+       {toksvig, unreal},
+       {inverse_kappa,  // on rho^2 = alpha
+        [](double alpha2, double v) { return squared(std::sqrt(alpha2) + std::min(0.75 * v, godot_cap)); }},
+       {shortfall, [](double alpha2, double v) { return alpha2 + three_factor * v; }},
+       {inverse_kappa, [](double alpha2, double v) { return alpha2 + 2.0 * v; }},
+       {shortfall, karis},
+       {inverse_kappa, [](double alpha2, double v) { return alpha2 + v; }},
+       {shortfall, chan},
+       {}}};  // free: by its parameters
+  return rules.at(static_cast<std::size_t>(preset));
+}
+
 }  // namespace
 
 Preset preset_of(std::string_view name) {
@@ -96,22 +127,9 @@ double ggx_shortfall(double alpha2) {
   return alpha2 * (std::log((1.0 + a) / std::sqrt(alpha2)) - a) / (a2 * a);
 }
 
-Stored stored_kind(Preset preset) {
-  switch (preset) {
-    case Preset::unreal:
-      return Stored::toksvig;
-    case Preset::three_removed:
-    case Preset::karis:
-    case Preset::chan2018:
-      return Stored::shortfall;
-    default:
-      return Stored::inverse_kappa;
-  }
-}
-
 double stored_spread(Preset preset, double shortfall) {
   const double q = std::clamp(shortfall, 0.0, 1.0);
-  switch (stored_kind(preset)) {
+  switch (rule_of(preset).stored) {
     case Stored::toksvig:
       return std::min(q / std::max(1.0 - q, 1e-12), largest_stored);
     case Stored::shortfall:
@@ -124,37 +142,9 @@ double stored_spread(Preset preset, double shortfall) {
 }
 
 double widened_alpha2(const Formula& formula, NormalDistribution distribution, double alpha2, double stored) {
-  const double alpha = std::sqrt(alpha2);
-  switch (formula.preset) {
-    case Preset::fit:
-      return alpha2 + fit_constant(distribution, alpha) * stored;
-    case Preset::filament:
-    case Preset::mjp_vmf:
-      return alpha2 + 2.0 * stored;
-    case Preset::filament_rho:  // on rho^2 = alpha
-      return squared(alpha + 2.0 * stored);
-    case Preset::unity:
-      return alpha2 + std::min(0.5 * stored, unity_cap);
-    case Preset::unity_projected:
-      return projected(alpha2, std::min(0.5 * stored, unity_cap));
-    case Preset::hdrp_import:
-      return alpha2 + std::min(0.5 * stored, hdrp_cap);
-    case Preset::unreal:
-      return unreal(alpha2, stored);
-    case Preset::godot:  // on rho^2 = alpha
-      return squared(alpha + std::min(0.75 * stored, godot_cap));
-    case Preset::three_removed:
-      return alpha2 + three_factor * stored;
-    case Preset::karis:
-      return karis(alpha2, stored);
-    case Preset::order1886:
-      return alpha2 + stored;
-    case Preset::chan2018:
-      return chan(alpha2, stored);
-    case Preset::free:
-      break;
-  }
-  return alpha2 + std::min(formula.constant * stored, formula.cap);
+  if (formula.preset == Preset::fit) return alpha2 + fit_constant(distribution, std::sqrt(alpha2)) * stored;
+  if (formula.preset == Preset::free) return alpha2 + std::min(formula.constant * stored, formula.cap);
+  return rule_of(formula.preset).widened(alpha2, stored);
 }
 
 const FitTable& fit_table(NormalDistribution distribution) {

@@ -46,16 +46,9 @@ struct Formula {
 /// results would name a preset that was not used.
 [[nodiscard]] Formula formula_of(const Options& options);
 
-/// The value that a texel stores, of which mip maps and texture filters take means. `shortfall` is 1 minus the length
-/// of the mean normal, 0 to 1.
-enum class Stored {
-  inverse_kappa,  ///< (1 - r^2) / (3 r - r^3), at most largest_stored; of Filament 1e-4 where all normals agree
-  toksvig,        ///< (1 - r) / r, at most largest_stored
-  shortfall       ///< 1 - r
-};
-inline constexpr double largest_stored = 100;
-
-[[nodiscard]] Stored stored_kind(Preset preset);
+/// The value that a texel stores, of which mip maps and texture filters take means: 1 / kappa, (1 - r) / r, both at
+/// most 100, or 1 - r. Of Filament 1e-4 where all normals agree. `shortfall` is 1 - r, 0 to 1, r the length of the mean
+/// normal.
 [[nodiscard]] double stored_spread(Preset preset, double shortfall);
 
 /// alpha'^2 of a lobe whose alpha^2 is twice its slope variance, over normals of the stored spread. Only `fit` depends

@@ -1,10 +1,7 @@
 // Weight, mean and covariance of each part of the normals under a footprint, from moments that the texture filter may
 // average, and one stretched base lobe per part (methods/cells/README.md).
-//? if coordinates_slopes
-//? include slope_part.glsl
-//? else
-//? include stretched_part.glsl
-//? end
+//? include slope_part.glsl if coordinates_slopes
+//? include stretched_part.glsl if not coordinates_slopes
 
 const int parts = int(option_k);  //? if texture_arrays
 const int parts = 1;              //? else

@@ -231,11 +231,8 @@ float mostTexels(Query q) {
   return most / float(footprint_parts * footprint_parts);  //? if filter_shaded
   return most;                                             //? else
 }
-//? if kernel_filter
-//? include exact_filter.glsl
-//? else
-//? include exact_pixel.glsl
-//? end
+//? include exact_filter.glsl if kernel_filter
+//? include exact_pixel.glsl if not kernel_filter
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Sum sum = sumOver(e, reflectanceQuery(wi, wo));

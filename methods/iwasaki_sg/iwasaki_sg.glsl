@@ -62,13 +62,10 @@ vec4 tableLayer(int layer, TableTexels texels) {
 
 // The values of the table: the lobes, followed by the diffuse term. In colour each has a layer, otherwise four share a
 // layer.
-//? if microgeometry_colour
-const int values_per_layer = 1;
-vec3 valueIn(vec4 layer, int value) { return layer.rgb; }
-//? else
-const int values_per_layer = 4;
-vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }
-//? end
+const int values_per_layer = 1;                                         //? if microgeometry_colour
+const int values_per_layer = 4;                                         //? else
+vec3 valueIn(vec4 layer, int value) { return layer.rgb; }               //? if microgeometry_colour
+vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }  //? else
 
 vec3 tableAt(int value, TableTexels texels) { return valueIn(tableLayer(value / values_per_layer, texels), value); }
 //? end

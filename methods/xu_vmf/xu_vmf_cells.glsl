@@ -19,12 +19,9 @@ const int part_count = 13;
 int partOfCell(int cell) { return 2 + cell + cell / 2; }
 int beyondPart(int part) { return part == 0 ? part_count : part % 3 == 1 ? part + 3 : part + 1; }
 //? else
-//? if j_4
-const int part_count = 4;
-int partOfCell(int cell) { return cell / 2; }
-//? else
-const int part_count = 8;
-int partOfCell(int cell) { return cell; }
-//? end
+const int part_count = 4;                      //? if j_4
+const int part_count = 8;                      //? else
+int partOfCell(int cell) { return cell / 2; }  //? if j_4
+int partOfCell(int cell) { return cell; }      //? else
 int beyondPart(int part) { return part + 1; }
 //? end

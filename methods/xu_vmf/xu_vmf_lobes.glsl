@@ -32,15 +32,11 @@ int facetsLobeCount() { return 1; }
 FacetsLobe facetsLobeAt(Footprints f, int k) { return baseLobe(f); }
 //? end
 
-//? if j_1
-const int most_of_one = 1;
-//? elif j_4
-const int most_of_one = 4;
-//? elif thresholds_blended
-const int most_of_one = 13;  // while blending from one lobe to 4 parts, and from each of these to 2
-//? else
-const int most_of_one = 8;
-//? end
+// While blending from one lobe to 4 parts, and from each of these to 2, there are 13.
+const int most_of_one = 1;   //? if j_1
+const int most_of_one = 4;   //? elif j_4
+const int most_of_one = 13;  //? elif thresholds_blended
+const int most_of_one = 8;   //? else
 const int most_lobes = most_of_one * most_facet_lobes;  //? if multi_lobe
 const int most_lobes = most_of_one;                     //? else
 

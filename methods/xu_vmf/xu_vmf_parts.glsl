@@ -28,17 +28,15 @@ Part partOf(vec4 r, float guard, float facet_shortfall) {
   return Part(r, r.w * facet_shortfall);  //? else
 }
 
-//? if surface_coordinates
-Footprint mapFootprint(Footprints f) { return f.surface; }
-// The map is in camera space, unless no atlas could be made for it.
-vec3 axisOf(vec3 r) { return xu_vmf_in_camera_space > 0.5 ? r * tangent_to_camera : r; }
-//? elif normal_variation
-Footprint mapFootprint(Footprints f) { return f.normal; }
-vec3 axisOf(vec3 r) { return r; }
-//? else
-Footprint mapFootprint(Footprints f) { return f.roughness; }
-vec3 axisOf(vec3 r) { return r; }
-//? end
+Footprint mapFootprint(Footprints f) { return f.surface; }    //? if surface_coordinates
+Footprint mapFootprint(Footprints f) { return f.normal; }     //? elif normal_variation
+Footprint mapFootprint(Footprints f) { return f.roughness; }  //? else
+
+// With surface coordinates the map is in camera space, unless no atlas could be made for it.
+vec3 axisOf(vec3 r) {
+  return xu_vmf_in_camera_space > 0.5 ? r * tangent_to_camera : r;  //? if surface_coordinates
+  return r;                                                         //? else
+}
 
 // The lobe of a part that counts with `weight`, unless the part covers next to nothing.
 bool hasLobe(Part part, float weight) { return part.r.w >= least_share && weight > 0.0; }

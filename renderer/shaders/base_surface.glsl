@@ -1,10 +1,7 @@
 // The base BRDF. The reference averages it, and `direct` evaluates it once per pixel.
 //? include normal_layers.glsl if normal_layers
-//? if microgeometry_visibility
-//? include patch_facets.glsl
-//? else
-//? include facets_module.glsl
-//? end
+//? include patch_facets.glsl if microgeometry_visibility
+//? include facets_module.glsl if not microgeometry_visibility
 
 Effective effective(Footprints f) {
 //? if normal_variation

@@ -102,19 +102,15 @@ struct Facets {
 float widenedLobe(int k, float spread) {
   return spread > 0.0 ? lobeFromVariance(facet_lobes[k].variance + spread) : facet_lobes[k].parameter;
 }
-
-Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe, 0.0); }
-// `variance` is the base lobe's, `spread` that of the normals, both slope variances per axis.
-Facets spreadFacets(vec3 normal, float variance, float spread) {
-  return Facets(normal, lobeFromVariance(variance + spread), spread);
-}
-//? else
-Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe); }
-// `variance` is the base lobe's, `spread` that of the normals, both slope variances per axis.
-Facets spreadFacets(vec3 normal, float variance, float spread) {
-  return Facets(normal, lobeFromVariance(variance + spread));
-}
 //? end
+
+Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe, 0.0); }  //? if multi_lobe
+Facets evenFacets(vec3 normal, float lobe) { return Facets(normal, lobe); }       //? else
+// `variance` is the base lobe's, `spread` that of the normals, both slope variances per axis.
+Facets spreadFacets(vec3 normal, float variance, float spread) {
+  return Facets(normal, lobeFromVariance(variance + spread), spread);  //? if multi_lobe
+  return Facets(normal, lobeFromVariance(variance + spread));          //? else
+}
 
 // The density of normals, 1/sr.
 float facetDensity(Facets f, vec3 h) {

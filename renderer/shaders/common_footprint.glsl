@@ -223,13 +223,10 @@ FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
 }
 //? else
 int footprintTexelCount(ivec2 finest, Footprint f) { return 1; }
-//? if sampling_texel
 FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
-  return FootprintTexel(drawnTexel(vec2(finest), f), 0.0, 1.0);
+  return FootprintTexel(drawnTexel(vec2(finest), f), 0.0, 1.0);  //? if sampling_texel
+  return FootprintTexel(f.uv, 0.0, 1.0);                         //? else
 }
-//? else
-FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) { return FootprintTexel(f.uv, 0.0, 1.0); }
-//? end
 //? end
 
 int footprintTexelCount(sampler2DArray map, Footprint f) { return footprintTexelCount(textureSize(map, 0).xy, f); }

@@ -32,15 +32,12 @@ Footprints partOf(Footprints f, int i) {
   FootprintPart p = partOf(f.normal, i);
   Footprints part;
   part.normal = p.normal;
-//? if shared_coordinates
-  part.roughness = part.normal;
-  part.base_color = part.normal;
-  part.specular = part.normal;  //? if specular_variation
-//? else
-  part.roughness = onMap(f.roughness, p);
-  part.base_color = onMap(f.base_color, p);
-  part.specular = onMap(f.specular, p);  //? if specular_variation
-//? end
+  part.roughness = part.normal;              //? if shared_coordinates
+  part.roughness = onMap(f.roughness, p);    //? else
+  part.base_color = part.normal;             //? if shared_coordinates
+  part.base_color = onMap(f.base_color, p);  //? else
+  part.specular = part.normal;               //? if specular_variation and shared_coordinates
+  part.specular = onMap(f.specular, p);      //? elif specular_variation
   part.surface = onMap(f.surface, p);  //? if surface_coordinates
   part.layer = onMap(f.layer, p);  //? if normal_layers
   part.coat_weight = onMap(f.coat_weight, p);  //? if clear_coat and coat_weight_variation

@@ -18,26 +18,21 @@ float tiltOf(float tangent2) {
 }
 
 // 1 - cos of a normal drawn from the lobe, and its density over solid angle. u is in (0, 1].
-//? if distribution_blinn_phong
-float drawnTilt(float s, float u) { return shortOfOne(log(u) / (s + 1.0)); }
-float drawnDensity(float s, vec3 n, vec3 h) { return lobeDensity(s, n, h); }
-//? end
+float drawnTilt(float s, float u) { return shortOfOne(log(u) / (s + 1.0)); }             //? if distribution_blinn_phong
+float drawnTilt(float alpha, float u) { return tiltOf(-alpha * alpha * log(u)); }        //? elif distribution_beckmann
+float drawnTilt(float alpha, float u) { return tiltOf(alpha * alpha * (1.0 - u) / u); }  //? elif distribution_ggx
 //? if distribution_vmf
 float drawnTilt(float kappa, float u) {
   float k = max(kappa, 1e-3);
   return clamp(-log(u + (1.0 - u) * exp(-2.0 * k)) / k, 0.0, 2.0);
 }
-float drawnDensity(float kappa, vec3 n, vec3 h) { return lobeDensity(max(kappa, 1e-3), n, h); }
 //? end
 // For microfacets, the projected area integrates to one.
-//? if distribution_beckmann
-float drawnTilt(float alpha, float u) { return tiltOf(-alpha * alpha * log(u)); }
-float drawnDensity(float alpha, vec3 n, vec3 h) { return lobeDensity(alpha, n, h) * max(dot(n, h), 0.0); }
-//? end
-//? if distribution_ggx
-float drawnTilt(float alpha, float u) { return tiltOf(alpha * alpha * (1.0 - u) / u); }
-float drawnDensity(float alpha, vec3 n, vec3 h) { return lobeDensity(alpha, n, h) * max(dot(n, h), 0.0); }
-//? end
+float drawnDensity(float lobe, vec3 n, vec3 h) {
+  return lobeDensity(lobe, n, h);                        //? if distribution_blinn_phong
+  return lobeDensity(max(lobe, 1e-3), n, h);             //? elif distribution_vmf
+  return lobeDensity(lobe, n, h) * max(dot(n, h), 0.0);  //? else
+}
 
 vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
   float tilt = drawnTilt(lobe, max(1.0 - u.x, 1e-7));

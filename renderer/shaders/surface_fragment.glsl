@@ -23,15 +23,12 @@ Footprint footprintOf(vec4 linear, vec4 offset_set) {
 Footprints pixelFootprints() {
   Footprints f;
   f.normal = footprintOf(uv_linear[0], uv_offset_set[0]);
-//? if shared_coordinates
-  f.roughness = f.normal;
-  f.base_color = f.normal;
-  f.specular = f.normal;  //? if specular_variation
-//? else
-  f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);
-  f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);
-  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);  //? if specular_variation
-//? end
+  f.roughness = f.normal;                                                //? if shared_coordinates
+  f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);             //? else
+  f.base_color = f.normal;                                               //? if shared_coordinates
+  f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);            //? else
+  f.specular = f.normal;                                                 //? if specular_variation and shared_coordinates
+  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);  //? elif specular_variation
   f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));  //? if surface_coordinates
   f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);  //? if normal_layers
   f.coat_weight = footprintOf(coat_uv_linear[0], coat_uv_offset_set[0]);  //? if clear_coat and coat_weight_variation
@@ -96,11 +93,8 @@ vec3 reflected(SurfacePoint p, Incident light) {
 //? include direction_draws.glsl
 
 //? end
-//? if environment_sampled
-//? include environment_sampling.glsl
-//? elif environment_light
-//? include environment_stack.glsl
-//? end
+//? include environment_sampling.glsl if environment_sampled
+//? include environment_stack.glsl if environment_light and not environment_sampled
 
 //? if area_sampled
 //? include area_sampling.glsl

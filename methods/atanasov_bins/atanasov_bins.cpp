@@ -1,7 +1,5 @@
 // `atanasov_bins`: a bin map of the normals and its inverse, by which the density of normals under a pixel is a count
 // of texels. Atanasov, Křivánek, Koylazov and Wilkie 2020, "Efficient Multiscale Rendering of Specular Microstructure".
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +8,7 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
+#include "renderer/image/mipmap.hpp"
 
 namespace footprint {
 
@@ -81,12 +80,7 @@ Image widths_of_texels(const Material& material, const glm::ivec2& size) {
   const std::vector<Image> chain = lobe_variance_chain(material);
   const double finer = std::max(std::log2(static_cast<double>(chain.front().width) / size.x), 0.0);
   const Image& level = chain[std::min(static_cast<std::size_t>(finer + 0.5), chain.size() - 1)];
-  Image widths(size.x, size.y, 1);
-  tbb::parallel_for(0, size.y, [&](int y) {
-    for (int x = 0; x < size.x; ++x)
-      widths.at(x, y)[0] = level.at(x * level.width / size.x, y * level.height / size.y)[0];
-  });
-  return widths;
+  return nearest_texels(level, size.x, size.y);
 }
 
 // The slope variance of normals that fill a bin evenly, doubled because they may be at its corners.

@@ -85,18 +85,14 @@ Image moment_layer(const PartedPoints& map, const std::array<PartFrame, most_par
 }
 
 Image value_layer(const PartedPoints& map, const Image& values, int layer) {
+  const Image own = nearest_texels(values, map.width, map.height);
   Image out(map.width, map.height, 4);
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const std::size_t i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
-      const double v = values.at(x * values.width / map.width, y * values.height / map.height)[0];
-      for (std::size_t c = 0; c < 4; ++c) {
-        const std::size_t part = 4 * static_cast<std::size_t>(layer) + c;
-        if (part >= map.parts) break;
-        out.texels[4 * i + c] =
-            static_cast<float>(map.points[i].weight * static_cast<double>(map.shares[i * map.parts + part]) * v);
-      }
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::size_t part = 4 * static_cast<std::size_t>(layer) + c;
+      if (part >= map.parts) break;
+      const auto share = static_cast<double>(map.shares[i * map.parts + part]);
+      out.texels[4 * i + c] = static_cast<float>(map.points[i].weight * share * static_cast<double>(own.texels[i]));
     }
   }
   return out;

@@ -15,6 +15,7 @@
 
 #include "renderer/bake/normal_chain.hpp"
 #include "renderer/bake/slope_moments.hpp"
+#include "renderer/image/mipmap.hpp"
 
 namespace footprint::cells {
 namespace {
@@ -345,13 +346,8 @@ std::vector<float> partition(std::span<const PlanePoint> points, int width, int 
 }
 
 std::vector<double> texel_variances(const Material& material, int width, int height) {
-  const Image map = lobe_variance_map(material);
-  std::vector<double> variances;
-  variances.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) variances.push_back(map.at(x * map.width / width, y * map.height / height)[0]);
-  }
-  return variances;
+  const Image variances = nearest_texels(lobe_variance_map(material), width, height);
+  return {variances.texels.begin(), variances.texels.end()};
 }
 
 std::vector<bool> upper_group(std::span<const double> values) {

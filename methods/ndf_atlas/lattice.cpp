@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "renderer/bake/material_maps.hpp"
+#include "renderer/image/mipmap.hpp"
 
 namespace footprint::ndf_atlas {
 namespace {
@@ -75,13 +76,7 @@ std::optional<Facets> facets_of(const Material& material, bool rough) {
     return facets;
   }
   if (!roughness_lies_on_normals(material)) return {};
-  facets.parameters.clear();
-  for (int y = 0; y < normals.height; ++y) {
-    for (int x = 0; x < normals.width; ++x) {
-      facets.parameters.push_back(
-          parameters.at(x * parameters.width / normals.width, y * parameters.height / normals.height)[0]);
-    }
-  }
+  facets.parameters = nearest_texels(parameters, normals.width, normals.height).texels;
   return facets;
 }
 

@@ -21,16 +21,6 @@ namespace {
 // Bytes cannot store a sum of variances.
 Storage spread_storage(Storage storage) { return is_coarse(storage) ? Storage::fp16 : storage; }
 
-// Repeats the texels of a coarse image over a finer size.
-Image repeated(const Image& coarse, int width, int height) {
-  Image fine(width, height, coarse.channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      std::ranges::copy(coarse.at(x * coarse.width / width, y * coarse.height / height), fine.at(x, y).begin());
-  }
-  return fine;
-}
-
 // Prepends finer levels of repeated texels, so that the chain begins with the given size. None if its finest level does
 // not fit into a chain of that size; a single texel always fits.
 std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain, int width, int height) {
@@ -43,7 +33,7 @@ std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain
       return finer;
     }
     if (w % finest.width != 0 || h % finest.height != 0) return {};
-    finer.push_back(repeated(finest, w, h));
+    finer.push_back(nearest_texels(finest, w, h));
   }
   return {};
 }

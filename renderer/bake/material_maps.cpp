@@ -177,12 +177,7 @@ std::optional<Image> specular_over(const Material& material, const glm::ivec2& s
   const Image own = specular_map_of(material);
   const bool elsewhere = material.specular_map && specular_coordinates(material) != coordinates;
   if (elsewhere || own.width > size.x || own.height > size.y) return {};
-  Image out(size.x, size.y, 3);
-  for (int y = 0; y < size.y; ++y) {
-    for (int x = 0; x < size.x; ++x)
-      std::ranges::copy(own.at(x * own.width / size.x, y * own.height / size.y), out.at(x, y).begin());
-  }
-  return out;
+  return nearest_texels(own, size.x, size.y);
 }
 
 }  // namespace footprint

@@ -39,12 +39,7 @@ std::vector<Image> unit_normals(std::vector<Image> chain) {
 Image fitting(const std::vector<Image>& chain, int width, int height) {
   const auto level =
       std::ranges::find_if(chain, [&](const Image& each) { return each.width <= width && each.height <= height; });
-  Image out(width, height, level->channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      std::ranges::copy(level->at(x * level->width / width, y * level->height / height), out.at(x, y).begin());
-  }
-  return out;
+  return nearest_texels(*level, width, height);
 }
 
 // A level as glTF has it: 1, roughness and, if it is in a map, metallic.

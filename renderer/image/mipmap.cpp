@@ -92,4 +92,13 @@ std::vector<Image> mip_chain(Image finest) { return chain(std::move(finest), pla
 
 std::vector<Image> weighted_mip_chain(Image finest) { return chain(std::move(finest), weighted_mean); }
 
+Image nearest_texels(const Image& image, int width, int height) {
+  Image out(width, height, image.channels);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      std::ranges::copy(image.at(x * image.width / width, y * image.height / height), out.at(x, y).begin());
+  }
+  return out;
+}
+
 }  // namespace footprint

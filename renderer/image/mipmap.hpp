@@ -32,4 +32,7 @@ struct MipTaps {
 /// weight. Texels of weight 0 (invalid normals) do not contribute; if all weights are 0, the plain mean is used.
 [[nodiscard]] std::vector<Image> weighted_mip_chain(Image finest);
 
+/// An image of another size by its nearest texels: those of a smaller one are repeated.
+[[nodiscard]] Image nearest_texels(const Image& image, int width, int height);
+
 }  // namespace footprint

@@ -1,11 +1,15 @@
-// NUMBER.vert and NUMBER.frag have SPIR-V; NUMBER.targets the formats of the targets; NUMBER.json the outcome;
-// device.txt the driver's name of the chip.
+// Creates an instance, a device, one pipeline layout for all programs, and a graphics pipeline per program. Files are
+// JSON; device.txt has the driver's name of the chip.
 #include "renderer/gpu_cost/compiled_programs.hpp"
 
+#define VK_NO_PROTOTYPES
 #include <fmt/format.h>
 
-#include <cstring>
+#include <array>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vulkan/vulkan_raii.hpp>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
@@ -14,60 +18,187 @@ namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
+constexpr std::uint32_t most_textures = 32, most_blocks = 9, most_attributes = 16;
+
+Error vulkan_error(const std::string& place, const std::string& message) {
+  return {ErrorKind::machine, place, message,
+          "install the packages libvulkan1 and mesa-vulkan-drivers (Mesa's driver for AMD)"};
+}
+
+vk::raii::Context loaded() {
+  try {
+    return {};
+  } catch (const std::runtime_error&) {
+    throw vulkan_error("libvulkan.so.1", "cannot be loaded");
+  }
+}
+
+vk::raii::Instance instance_of(const vk::raii::Context& context) {
+  const vk::ApplicationInfo application({}, 0, {}, 0, VK_API_VERSION_1_1);
+  return {context, vk::InstanceCreateInfo({}, &application)};
+}
+
+vk::raii::PhysicalDevice first_device(const vk::raii::Instance& instance) {
+  vk::raii::PhysicalDevices devices(instance);
+  if (devices.empty()) throw vulkan_error("Vulkan", "there is no device");
+  return std::move(devices.front());
+}
+
+vk::raii::Device device_of(const vk::raii::PhysicalDevice& physical) {
+  const float priority = 1.0F;
+  const vk::DeviceQueueCreateInfo queue({}, 0, 1, &priority);
+  const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE);
+  const char* const extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+  const auto features =
+      vk::PhysicalDeviceFeatures().setSamplerAnisotropy(VK_TRUE).setShaderImageGatherExtended(VK_TRUE);
+  return {physical, vk::DeviceCreateInfo({}, queue, {}, extension, &features, &statistics)};
+}
+
+vk::raii::DescriptorSetLayout all_bindings(const vk::raii::Device& device) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  const auto add = [&](std::uint32_t binding, vk::DescriptorType type) {
+    bindings.push_back({binding, type, 1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment});
+  };
+  for (std::uint32_t i = 0; i < most_textures; ++i) add(i, vk::DescriptorType::eCombinedImageSampler);
+  for (std::uint32_t i = 0; i < most_blocks; ++i)
+    add(vulkan_binding::first_block + i, vk::DescriptorType::eUniformBuffer);
+  add(vulkan_binding::plain_uniforms, vk::DescriptorType::eUniformBuffer);
+  return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+vk::Format format_of(const ColorTarget& target) {
+  if (target.bits == 16)
+    return target.channels == 1   ? vk::Format::eR16Sfloat
+           : target.channels == 2 ? vk::Format::eR16G16Sfloat
+                                  : vk::Format::eR16G16B16A16Sfloat;
+  return target.channels == 1   ? vk::Format::eR32Sfloat
+         : target.channels == 2 ? vk::Format::eR32G32Sfloat
+                                : vk::Format::eR32G32B32A32Sfloat;
+}
+
+// A pass that draws into these targets.
+vk::raii::RenderPass pass_of(const vk::raii::Device& device, const std::vector<ColorTarget>& targets) {
+  std::vector<vk::AttachmentDescription> attachments;
+  std::vector<vk::AttachmentReference> references;
+  for (const ColorTarget& target : targets) {
+    references.emplace_back(static_cast<std::uint32_t>(references.size()), vk::ImageLayout::eColorAttachmentOptimal);
+    attachments.push_back(vk::AttachmentDescription()
+                              .setFormat(format_of(target))
+                              .setLoadOp(vk::AttachmentLoadOp::eClear)
+                              .setFinalLayout(vk::ImageLayout::eGeneral));
+  }
+  const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics, {}, references);
+  return {device, vk::RenderPassCreateInfo({}, attachments, subpass)};
+}
+
+struct CompilingDevice {
+  vk::raii::Context context = loaded();
+  vk::raii::Instance instance = instance_of(context);
+  vk::raii::PhysicalDevice physical = first_device(instance);
+  std::string name = static_cast<const char*>(physical.getProperties().deviceName);
+  vk::raii::Device device = device_of(physical);
+  vk::raii::DescriptorSetLayout set = all_bindings(device);
+  vk::raii::PipelineLayout layout{device, vk::PipelineLayoutCreateInfo({}, *set)};
+};
+
+// Float vertex attributes, and all channels of each target written.
+vk::raii::Pipeline pipeline_of(const CompilingDevice& on, const SpirvProgram& program) {
+  const vk::raii::Device& device = on.device;
+  const vk::raii::ShaderModule vertex(device, vk::ShaderModuleCreateInfo({}, program.vertex));
+  const vk::raii::ShaderModule fragment(device, vk::ShaderModuleCreateInfo({}, program.fragment));
+  const std::array<vk::PipelineShaderStageCreateInfo, 2> stages{
+      {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
+       {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main"}}};
+  const vk::VertexInputBindingDescription stream(0, 16 * most_attributes);
+  std::vector<vk::VertexInputAttributeDescription> attributes;
+  for (std::uint32_t i = 0; i < most_attributes; ++i)
+    attributes.emplace_back(i, 0, vk::Format::eR32G32B32A32Sfloat, 16 * i);
+  const vk::PipelineVertexInputStateCreateInfo vertices({}, stream, attributes);
+  const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+  const vk::Viewport area(0, 0, 512, 512, 0, 1);
+  const vk::Rect2D scissor({0, 0}, {512, 512});
+  const vk::PipelineViewportStateCreateInfo viewport({}, area, scissor);
+  const auto raster = vk::PipelineRasterizationStateCreateInfo().setLineWidth(1.0F);
+  const vk::PipelineMultisampleStateCreateInfo samples;
+  using enum vk::ColorComponentFlagBits;
+  const std::vector<vk::PipelineColorBlendAttachmentState> written(
+      program.targets.size(), vk::PipelineColorBlendAttachmentState().setColorWriteMask(eR | eG | eB | eA));
+  const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eClear, written);
+  const vk::raii::RenderPass pass = pass_of(device, program.targets);
+  using enum vk::PipelineCreateFlagBits;
+  return {device, nullptr,
+          vk::GraphicsPipelineCreateInfo(eCaptureStatisticsKHR | eCaptureInternalRepresentationsKHR, stages)
+              .setPVertexInputState(&vertices)
+              .setPInputAssemblyState(&assembly)
+              .setPViewportState(&viewport)
+              .setPRasterizationState(&raster)
+              .setPMultisampleState(&samples)
+              .setPColorBlendState(&blend)
+              .setLayout(*on.layout)
+              .setRenderPass(*pass)};
+}
+
+// The number of the fragment stage among the pipeline's executables.
+std::uint32_t fragment_of(const CompilingDevice& on, const vk::raii::Pipeline& pipeline) {
+  const auto all = on.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (all[i].stages & vk::ShaderStageFlagBits::eFragment) return i;
+  }
+  throw vulkan_error(on.name, "reports no fragment stage");
+}
+
+// The wrapper lists the texts with their sizes; the driver fills them in where there is room.
+std::string code_of(const CompilingDevice& on, const vk::PipelineExecutableInfoKHR& executable) {
+  auto all = on.device.getPipelineExecutableInternalRepresentationsKHR(executable);
+  auto count = static_cast<std::uint32_t>(all.size());
+  std::vector<std::string> texts(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    texts[i].resize(all[i].dataSize);
+    all[i].pData = texts[i].data();
+  }
+  (void)on.device.getDispatcher()->vkGetPipelineExecutableInternalRepresentationsKHR(
+      *on.device, reinterpret_cast<const VkPipelineExecutableInfoKHR*>(&executable), &count,
+      reinterpret_cast<VkPipelineExecutableInternalRepresentationKHR*>(all.data()));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (std::string_view(all[i].name) == "ACO IR" && !texts[i].empty()) return texts[i].c_str();
+  }
+  throw vulkan_error(on.name, "does not report the code of its compiler ACO");
+}
+
+// NUMBER.program is a program, NUMBER.outcome what became of it.
 fs::path file_of(const fs::path& folder, std::size_t program, const char* extension) {
   return folder / fmt::format("{}.{}", program, extension);
 }
 
-void write_words(const fs::path& file, const Spirv& words) {
-  std::string bytes(words.size() * sizeof(Spirv::value_type), '\0');
-  std::memcpy(bytes.data(), words.data(), bytes.size());
-  write_file_atomically(file, bytes);
+void write_json(const fs::path& file, const Json& json) { write_file_atomically(file, std::string_view(json.dump())); }
+
+Json json_of(const SpirvProgram& program) {
+  Json targets = Json::array();
+  for (const ColorTarget& target : program.targets) targets.push_back({target.channels, target.bits});
+  return {{"vertex", program.vertex}, {"fragment", program.fragment}, {"targets", targets}};
 }
 
-Spirv words_of(const fs::path& file) {
-  const std::string bytes = file_text(file);
-  Spirv words(bytes.size() / sizeof(Spirv::value_type));
-  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(Spirv::value_type));
-  return words;
+SpirvProgram program_of(const Json& json) {
+  SpirvProgram program{.vertex = json.at("vertex"), .fragment = json.at("fragment"), .targets = {}};
+  for (const Json& target : json.at("targets"))
+    program.targets.push_back({.channels = target.at(0), .bits = target.at(1)});
+  return program;
 }
 
-void write_targets(const fs::path& file, const std::vector<ColorTarget>& targets) {
-  auto json = nlohmann::json::array();
-  for (const ColorTarget& target : targets) json.push_back({target.channels, target.bits});
-  write_file_atomically(file, std::string_view(json.dump()));
-}
-
-std::vector<ColorTarget> targets_of(const fs::path& file) {
-  std::vector<ColorTarget> targets;
-  for (const nlohmann::json& target : nlohmann::json::parse(file_text(file)))
-    targets.push_back({.channels = target.at(0).get<int>(), .bits = target.at(1).get<int>()});
-  return targets;
-}
-
-SpirvProgram program_of(const fs::path& folder, std::size_t program) {
-  return {.vertex = words_of(file_of(folder, program, "vert")),
-          .fragment = words_of(file_of(folder, program, "frag")),
-          .targets = targets_of(file_of(folder, program, "targets"))};
-}
-
-nlohmann::json json_of(const CompileOutcome& outcome) {
+Json json_of(const CompileOutcome& outcome) {
   if (!outcome.stage) return {{"failure", outcome.failure}};
+  const auto& [statistics, code, seconds] = *outcome.stage;
+  return {{"statistics", statistics}, {"code", code}, {"seconds", seconds}};
+}
+
+CompileOutcome outcome_of(const Json& json) {
+  if (json.contains("failure")) return {.stage = {}, .failure = json.at("failure")};
   return {
-      {"statistics", outcome.stage->statistics}, {"code", outcome.stage->code}, {"seconds", outcome.stage->seconds}};
-}
-
-CompileOutcome outcome_of(const nlohmann::json& json) {
-  if (json.contains("failure")) return {.stage = {}, .failure = json.at("failure").get<std::string>()};
-  CompiledStage stage;
-  json.at("statistics").get_to(stage.statistics);
-  json.at("code").get_to(stage.code);
-  json.at("seconds").get_to(stage.seconds);
-  return {.stage = std::move(stage), .failure = {}};
-}
-
-void write_outcome(const fs::path& folder, std::size_t program, const CompileOutcome& outcome) {
-  write_file_atomically(file_of(folder, program, "json"), std::string_view(json_of(outcome).dump()));
+      .stage =
+          CompiledStage{.statistics = json.at("statistics"), .code = json.at("code"), .seconds = json.at("seconds")},
+      .failure = {}};
 }
 
 CompileOutcome compiled(const VulkanCompiler& compiler, const SpirvProgram& program) {
@@ -80,37 +211,61 @@ CompileOutcome compiled(const VulkanCompiler& compiler, const SpirvProgram& prog
 
 }  // namespace
 
+struct VulkanCompiler::Implementation : CompilingDevice {};
+
+VulkanCompiler::VulkanCompiler() try : implementation_(std::make_unique<Implementation>()) {
+} catch (const vk::SystemError& error) {
+  throw vulkan_error("Vulkan", error.what());
+}
+
+VulkanCompiler::~VulkanCompiler() = default;
+
+const std::string& VulkanCompiler::device() const { return implementation_->name; }
+
+CompiledStage VulkanCompiler::compile(const SpirvProgram& program) const try {
+  const CompilingDevice& on = *implementation_;
+  const auto begin = std::chrono::steady_clock::now();
+  const vk::raii::Pipeline pipeline = pipeline_of(on, program);
+  CompiledStage stage;
+  stage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const vk::PipelineExecutableInfoKHR executable(*pipeline, fragment_of(on, pipeline));
+  for (const auto& one : on.device.getPipelineExecutableStatisticsKHR(executable))
+    stage.statistics[one.name] = one.value.u64;
+  stage.code = code_of(on, executable);
+  return stage;
+} catch (const vk::SystemError& error) {
+  throw vulkan_error("Vulkan", error.what());
+}
+
 void write_programs(std::span<const SpirvProgram> programs, const fs::path& folder) {
-  for (std::size_t i = 0; i < programs.size(); ++i) {
-    write_words(file_of(folder, i, "vert"), programs[i].vertex);
-    write_words(file_of(folder, i, "frag"), programs[i].fragment);
-    write_targets(file_of(folder, i, "targets"), programs[i].targets);
-  }
+  for (std::size_t i = 0; i < programs.size(); ++i) write_json(file_of(folder, i, "program"), json_of(programs[i]));
 }
 
 void compile_programs(const fs::path& folder) {
   const VulkanCompiler compiler;
   write_file_atomically(folder / "device.txt", std::string_view(compiler.device()));
-  for (std::size_t i = 0; fs::exists(file_of(folder, i, "frag")); ++i) {
-    if (fs::exists(file_of(folder, i, "json"))) continue;
-    write_outcome(folder, i, {.stage = {}, .failure = "the driver's compiler was interrupted by a crash"});
-    write_outcome(folder, i, compiled(compiler, program_of(folder, i)));
+  for (std::size_t i = 0; fs::exists(file_of(folder, i, "program")); ++i) {
+    const fs::path outcome = file_of(folder, i, "outcome");
+    if (fs::exists(outcome)) continue;
+    write_json(outcome, json_of({.stage = {}, .failure = "the driver's compiler was interrupted by a crash"}));
+    const SpirvProgram program = program_of(Json::parse(file_text(file_of(folder, i, "program"))));
+    write_json(outcome, json_of(compiled(compiler, program)));
   }
 }
 
 std::size_t compiled_count(const fs::path& folder) {
   std::size_t count = 0;
-  while (fs::exists(file_of(folder, count, "json"))) ++count;
+  while (fs::exists(file_of(folder, count, "outcome"))) ++count;
   return count;
 }
 
 ChipOutcomes read_outcomes(const fs::path& folder, std::size_t count) {
   ChipOutcomes outcomes{.device = file_text(folder / "device.txt"), .programs = {}};
   for (std::size_t i = 0; i < count; ++i) {
-    const fs::path file = file_of(folder, i, "json");
+    const fs::path file = file_of(folder, i, "outcome");
     try {
-      outcomes.programs.push_back(outcome_of(nlohmann::json::parse(file_text(file))));
-    } catch (const nlohmann::json::exception& error) {
+      outcomes.programs.push_back(outcome_of(Json::parse(file_text(file))));
+    } catch (const Json::exception& error) {
       throw Error(ErrorKind::machine, file.string(), error.what(), "run the command again");
     }
   }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/gpu_cost/compiled_programs.hpp"
 #include "renderer/gpu_cost/estimate.hpp"
 #include "renderer/gpu_cost/shader_work.hpp"
-#include "renderer/gpu_cost/vulkan_compiler.hpp"
 #include "renderer/languages/spirv.hpp"
 
 namespace footprint {

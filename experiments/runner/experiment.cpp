@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "experiments/runner/functions.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/views.hpp"
@@ -92,44 +91,33 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
   for (const Measure& measure : expression.measures()) check_measure(measure, experiment);
 }
 
-Expression read_expression(const TomlTable& table, std::string_view key, const std::string& text,
-                           const Experiment& experiment) {
-  return at_key(table, key, [&] {
-    Expression expression(text, fmt::format("`{:.200}`", text));
-    check_measures(expression, experiment);
-    return expression;
-  });
-}
-
 Claim read_claim(const TomlTable& table, const Experiment& experiment) {
   const std::string text = required_word(table, "inequality");
   Inequality inequality = at_key(table, "inequality", [&] {
     Inequality parsed(text, fmt::format("`{:.200}`", text));
-    check_measures(parsed.left(), experiment);
-    check_measures(parsed.right(), experiment);
+    check_measures(parsed.left, experiment);
+    check_measures(parsed.right, experiment);
     return parsed;
   });
   const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
   if (!expect) refuse_missing(table, "expect", experiments_document);
-  const auto source = table.choice("source", word_names(claim_source_words));
-  std::string name = required_word(table, "name");
-  std::string words = required_word(table, "text");
-  std::string reason = required_word(table, "reason");
-  return {.name = std::move(name),
-          .text = std::move(words),
-          .source = source ? claim_source_words[*source].value : ClaimSource::ours,
-          .inequality = std::move(inequality),
-          .expect = *expect == 0 ? Verdict::reproduced : Verdict::not_reproduced,
-          .reason = std::move(reason),
-          .place = table.error_at("name", "", "").place()};
+  Claim claim{.stated = {}, .inequality = std::move(inequality)};
+  claim.stated.name = required_word(table, "name");
+  claim.stated.text = required_word(table, "text");
+  claim.stated.source = read_word(table, "source", claim_source_words).value_or(ClaimSource::ours);
+  claim.stated.inequality = text;
+  claim.stated.expect = *expect == 0 ? Verdict::reproduced : Verdict::not_reproduced;
+  claim.stated.reason = required_word(table, "reason");
+  claim.stated.place = table.error_at("name", "", "").place();
+  return claim;
 }
 
 void read_claims(const TomlTable& root, Experiment& experiment) {
   for (const TomlTable& table : root.tables("claim", {"name", "text", "source", "inequality", "expect", "reason"})) {
     Claim claim = read_claim(table, experiment);
-    if (std::ranges::find(experiment.claims, claim.name, &Claim::name) != experiment.claims.end()) {
-      throw table.error_at("name", fmt::format("is `{:.80}` as in another claim", claim.name), "name it otherwise");
-    }
+    const std::string& name = claim.stated.name;
+    if (std::ranges::any_of(experiment.claims, [&](const Claim& other) { return other.stated.name == name; }))
+      throw table.error_at("name", fmt::format("is `{:.80}` as in another claim", name), "name it otherwise");
     experiment.claims.push_back(std::move(claim));
   }
 }
@@ -164,13 +152,19 @@ void read_published(const TomlTable& table, Experiment& experiment) {
     if (std::ranges::find(*figures, figure) == figures->end()) continue;
     const auto number = value.number("value", any_number);
     if (!number) refuse_missing(value, "value", experiments_document);
-    Expression measure = read_expression(value, "measure", required_word(value, "measure"), experiment);
-    std::string unit = value.word("unit").value_or(""), note = value.word("note").value_or("");
-    experiment.published.push_back({.figure = figure,
-                                    .measure = std::move(measure),
-                                    .value = *number,
-                                    .unit = std::move(unit),
-                                    .note = std::move(note)});
+    const std::string text = required_word(value, "measure");
+    Expression measure = at_key(value, "measure", [&] {
+      Expression parsed(text, fmt::format("`{:.200}`", text));
+      check_measures(parsed, experiment);
+      return parsed;
+    });
+    experiment.published.push_back({.printed = {.figure = figure,
+                                                .measure = measure.text(),
+                                                .unit = value.word("unit").value_or(""),
+                                                .published = *number,
+                                                .measured = {},
+                                                .note = value.word("note").value_or("")},
+                                    .measure = std::move(measure)});
   }
   for (const std::string& figure : *figures) {
     if (std::ranges::find(known, figure) != known.end()) continue;
@@ -444,8 +438,8 @@ void check_against_scenes(const Experiment& experiment) {
   const std::vector<SceneDistances> scenes = distances_by_scene(experiment);
   const auto check = [&](const Expression& expression) { check_at_distances(expression, experiment, scenes); };
   for (const Claim& claim : experiment.claims) {
-    check(claim.inequality.left());
-    check(claim.inequality.right());
+    check(claim.inequality.left);
+    check(claim.inequality.right);
   }
   for (const Threshold& threshold : experiment.thresholds) check(threshold.measure);
   for (const PublishedValue& published : experiment.published) check(published.measure);

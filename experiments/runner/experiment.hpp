@@ -17,12 +17,8 @@ namespace footprint {
 
 /// A statement, of a paper or our own, as an inequality over the records.
 struct Claim {
-  std::string name, text;
-  ClaimSource source = ClaimSource::ours;
+  ClaimOutcome stated;  ///< undecided
   Inequality inequality;
-  Verdict expect = Verdict::reproduced;
-  std::string reason;
-  std::string place{};  ///< FILE:LINE of its name
 };
 
 /// An upper bound on an expression without `*`.
@@ -34,10 +30,8 @@ struct Threshold {
 
 /// A figure that a paper prints.
 struct PublishedValue {
-  std::string figure;
+  PublishedFigure printed;  ///< not measured
   Expression measure;
-  double value = 0;
-  std::string unit, note;
 };
 
 /// A footprint whose effective NDF is looked into.

@@ -150,12 +150,12 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(experiment.run.reference.environment, EnvironmentUse::dense);
   ASSERT_EQ(experiment.published.size(),
             1U);  // that of figure 2 names a method that this build lacks, and is not requested
-  EXPECT_EQ(experiment.published[0].value, 0.5);
+  EXPECT_EQ(experiment.published[0].printed.published, 0.5);
   ASSERT_EQ(experiment.footprints.size(), 1U);
   EXPECT_EQ(experiment.footprints[0].rect.upper, glm::dvec2(0.25, 0.5));
   ASSERT_EQ(experiment.claims.size(), 1U);
-  EXPECT_EQ(experiment.claims[0].source, ClaimSource::our_measure);
-  EXPECT_EQ(experiment.claims[0].expect, Verdict::not_reproduced);
+  EXPECT_EQ(experiment.claims[0].stated.source, ClaimSource::our_measure);
+  EXPECT_EQ(experiment.claims[0].stated.expect, Verdict::not_reproduced);
   ASSERT_EQ(experiment.thresholds.size(), 3U);
   EXPECT_EQ(experiment.thresholds[0].measure.text(), "error(direct)");
   EXPECT_EQ(experiment.thresholds[1].measure.text(), "error(toksvig:storage=fp16)");
@@ -246,8 +246,8 @@ TEST_F(ExperimentFile, ClaimsAreCheckedAgainstTheExperiment) {
   };
   const std::string good = claim("error(toksvig) < error(direct, distance=4)", "reproduced");
   ASSERT_EQ(read(good).claims.size(), 1U);
-  EXPECT_EQ(read(good).claims[0].source, ClaimSource::ours);  // not a paper's unless the file says so
-  EXPECT_EQ(read(good + "source = \"paper\"\n").claims[0].source, ClaimSource::paper);
+  EXPECT_EQ(read(good).claims[0].stated.source, ClaimSource::ours);  // not a paper's unless the file says so
+  EXPECT_EQ(read(good + "source = \"paper\"\n").claims[0].stated.source, ClaimSource::paper);
   expect_complaint(good + "source = \"papers\"\n", "did you mean `paper`");
   expect_complaint(claim("error(toksvg) < 1", "reproduced"), "did you mean `toksvig");
   expect_complaint(claim("error(direct, distance=2) < 1", "reproduced"), "it has 1, 4");

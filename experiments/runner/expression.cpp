@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/runner/functions.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/core/numbers.hpp"
@@ -51,19 +50,9 @@ std::size_t select_method(const std::string& wanted, std::span<const std::string
               "write it with its options, as in the experiment");
 }
 
-struct Expression::Node {
-  enum class Kind { number, call, negate, absolute, binary };
-  Kind kind = Kind::number;
-  double number = 0;
-  Measure measure;            // of a call
-  char operation = '+';       // of a binary: + - * /
-  std::vector<Node> parts{};  // operands
-};
-
 namespace {
 
-using Node = Expression::Node;
-using Kind = Node::Kind;
+using Kind = Expression::Kind;
 
 constexpr std::size_t longest_text = 4096;
 constexpr int deepest_nesting = 100;
@@ -75,8 +64,8 @@ class Parser {
     if (text.size() > longest_text) fail("is longer than 4096 characters", "shorten it");
   }
 
-  Node sum() {
-    Node left = product();
+  Expression sum() {
+    Expression left = product();
     while (const char operation = take_one_of("+-")) left = binary(operation, std::move(left), product());
     return left;
   }
@@ -97,15 +86,15 @@ class Parser {
   }
 
  private:
-  Node product() {
-    Node left = unary();
+  Expression product() {
+    Expression left = unary();
     while (const char operation = take_one_of("*/")) left = binary(operation, std::move(left), unary());
     return left;
   }
 
-  Node unary() {
+  Expression unary() {
     if (++depth_ > deepest_nesting) fail("is nested too deeply", "simplify it");
-    Node node;
+    Expression node;
     if (take_one_of("-") != 0) {
       node.kind = Kind::negate;
       node.parts.push_back(unary());
@@ -116,10 +105,10 @@ class Parser {
     return node;
   }
 
-  Node primary() {
+  Expression primary() {
     skip_blanks();
     if (take_one_of("(") != 0) {
-      Node inner = sum();
+      Expression inner = sum();
       expect(')');
       return inner;
     }
@@ -127,8 +116,8 @@ class Parser {
     return number();
   }
 
-  Node number() {
-    Node node;
+  Expression number() {
+    Expression node;
     const char* const first = text_.data() + at_;
     const auto parsed = std::from_chars(first, text_.data() + text_.size(), node.number);
     if (parsed.ec != std::errc() || !std::isfinite(node.number)) {
@@ -138,11 +127,11 @@ class Parser {
     return node;
   }
 
-  Node call() {
+  Expression call() {
     const std::size_t start = at_;
     while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]))) ++at_;
     const std::string name(text_.substr(start, at_ - start));
-    Node node;
+    Expression node;
     if (name == "abs") {
       expect('(');
       node.kind = Kind::absolute;
@@ -238,8 +227,8 @@ class Parser {
     return std::string(found);
   }
 
-  static Node binary(char operation, Node left, Node right) {
-    Node node;
+  static Expression binary(char operation, Expression left, Expression right) {
+    Expression node;
     node.kind = Kind::binary;
     node.operation = operation;
     node.parts = {std::move(left), std::move(right)};
@@ -276,40 +265,21 @@ class Parser {
   int depth_ = 0;
 };
 
-void collect(const Node& node, std::vector<Measure>& measures) {
+void collect(const Expression& node, std::vector<Measure>& measures) {
   if (node.kind == Kind::call) measures.push_back(node.measure);
-  for (const Node& part : node.parts) collect(part, measures);
+  for (const Expression& part : node.parts) collect(part, measures);
 }
 
-void fill_in(Node& node, const std::string& method) {
+void fill_in(Expression& node, const std::string& method) {
   if (node.kind == Kind::call && node.measure.method == "*") node.measure.method = method;
-  for (Node& part : node.parts) fill_in(part, method);
-}
-
-std::string text_of(const Node& node) {
-  const auto operand = [](const Node& part) {
-    return part.kind == Kind::binary ? fmt::format("({})", text_of(part)) : text_of(part);
-  };
-  switch (node.kind) {
-    case Kind::number:
-      return fmt::format("{}", node.number);
-    case Kind::call:
-      return measure_text(node.measure);
-    case Kind::negate:
-      return fmt::format("-{}", operand(node.parts[0]));
-    case Kind::absolute:
-      return fmt::format("abs({})", text_of(node.parts[0]));
-    case Kind::binary:
-      break;
-  }
-  return fmt::format("{} {} {}", operand(node.parts[0]), node.operation, operand(node.parts[1]));
+  for (Expression& part : node.parts) fill_in(part, method);
 }
 
 class Evaluator {
  public:
   explicit Evaluator(std::span<const Results> runs) : runs_(runs) {}
 
-  Evaluation run(const Node& node) {
+  Evaluation run(const Expression& node) {
     found_.value = value(node);
     if (found_.problem.empty()) found_.problem = mixed_hosts_message(found_.nodes);
     if (!found_.problem.empty()) found_.value.reset();
@@ -322,7 +292,7 @@ class Evaluator {
 
  private:
   // 0 if there is a problem, which is reported instead of the value.
-  double value(const Node& node) {
+  double value(const Expression& node) {
     switch (node.kind) {
       case Kind::number:
         return node.number;
@@ -346,21 +316,15 @@ class Evaluator {
       default:
         break;
     }
-    if (right == 0) return trouble(text_of(node) + ": division by 0");
+    if (right == 0) return trouble(node.text() + ": division by 0");
     return left / right;
   }
 
   double call(const Measure& measure) {
     const Measured answer = measured(measure, runs_);
-    if (!answer.value) return trouble(measure_text(measure) + ": " + answer.problem);
-    const std::string text = measure_text(measure);
-    if (std::ranges::find(found_.calls, text, &MeasuredCall::text) == found_.calls.end()) {
-      found_.calls.push_back({.text = text,
-                              .value = *answer.value,
-                              .at_noise_floor = answer.at_noise_floor,
-                              .noise_floor = answer.noise_floor,
-                              .records = answer.records});
-    }
+    if (!answer.value) return trouble(answer.text + ": " + answer.problem);
+    if (std::ranges::find(found_.calls, answer.text, &Measured::text) == found_.calls.end())
+      found_.calls.push_back(answer);
     found_.nodes.insert(answer.nodes.begin(), answer.nodes.end());
     return *answer.value;
   }
@@ -378,60 +342,56 @@ class Evaluator {
 
 Expression::Expression(const std::string& text, const std::string& place) {
   Parser parser(text, place);
-  root_.push_back(parser.sum());
+  *this = parser.sum();
   parser.end();
 }
 
-Expression::Expression(const Node& root) : root_{root} {}
-Expression::Expression(const Expression&) = default;
-Expression::Expression(Expression&&) noexcept = default;
-Expression::~Expression() = default;
-
 std::vector<Measure> Expression::measures() const {
   std::vector<Measure> found;
-  collect(root_.front(), found);
+  collect(*this, found);
   return found;
 }
 
 Expression Expression::with_method(const std::string& method) const {
-  Node root = root_.front();
-  fill_in(root, method);
-  return Expression(root);
+  Expression filled = *this;
+  fill_in(filled, method);
+  return filled;
 }
 
-std::string Expression::text() const { return text_of(root_.front()); }
-
-Evaluation Expression::evaluate(std::span<const Results> runs) const { return Evaluator(runs).run(root_.front()); }
-
-struct Inequality::Parts {
-  Expression left;
-  std::string relation;
-  Expression right;
-
-  static Parts parse(const std::string& text, const std::string& place) {
-    Parser parser(text, place);
-    const Expression left(parser.sum());
-    std::string relation = parser.relation();
-    const Expression right(parser.sum());
-    parser.end();
-    return {left, std::move(relation), right};
+std::string Expression::text() const {
+  const auto operand = [](const Expression& part) {
+    return part.kind == Kind::binary ? fmt::format("({})", part.text()) : part.text();
+  };
+  switch (kind) {
+    case Kind::number:
+      return fmt::format("{}", number);
+    case Kind::call:
+      return measure_text(measure);
+    case Kind::negate:
+      return fmt::format("-{}", operand(parts[0]));
+    case Kind::absolute:
+      return fmt::format("abs({})", parts[0].text());
+    case Kind::binary:
+      break;
   }
-};
+  return fmt::format("{} {} {}", operand(parts[0]), operation, operand(parts[1]));
+}
 
-Inequality::Inequality(const std::string& text, const std::string& place)
-    : Inequality(text, Parts::parse(text, place)) {}
+Evaluation Expression::evaluate(std::span<const Results> runs) const { return Evaluator(runs).run(*this); }
 
-Inequality::Inequality(std::string text, Parts parts)
-    : text_(std::move(text)),
-      relation_(std::move(parts.relation)),
-      left_(std::move(parts.left)),
-      right_(std::move(parts.right)) {}
+Inequality::Inequality(const std::string& text, const std::string& place) {
+  Parser parser(text, place);
+  left = parser.sum();
+  relation = parser.relation();
+  right = parser.sum();
+  parser.end();
+}
 
-bool Inequality::is_true(double left, double right) const {
-  if (relation_ == "<") return left < right;
-  if (relation_ == "<=") return left <= right;
-  if (relation_ == ">") return left > right;
-  return left >= right;
+bool Inequality::is_true(double left_value, double right_value) const {
+  if (relation == "<") return left_value < right_value;
+  if (relation == "<=") return left_value <= right_value;
+  if (relation == ">") return left_value > right_value;
+  return left_value >= right_value;
 }
 
 }  // namespace footprint

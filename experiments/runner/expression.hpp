@@ -1,23 +1,51 @@
-// Arithmetic over the figures of a run, and the inequalities that claims are made of (docs/reference/experiments.md).
+// Arithmetic over the figures of a run, and the inequalities that claims are made of; the functions that they call, in
+// one table for the parser, the check of an experiment and the evaluation (docs/reference/experiments.md).
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/report/records.hpp"
 
 namespace footprint {
 
+struct Experiment;
 struct FigureFunction;
+class Samples;
+
+/// A selector of a call: `distance=4`.
+enum class Selector {
+  distance,
+  frame,
+  spp,
+  scene,  ///< this and the next three: of the members of a matrix those that have the value on that axis
+  size,
+  filter,  ///< the footprint filter
+  seed,
+  footprint,  ///< of an effective NDF
+  name,
+  gpu  ///< of an estimated cost
+};
+
+/// As they are written, in the order of Selector.
+inline constexpr std::array<std::string_view, 10> selector_names{"distance",  "frame", "spp",       "scene", "size",
+                                                                 "footprint", "seed",  "footprint", "name",  "gpu"};
+
+[[nodiscard]] constexpr std::string_view selector_name(Selector selector) {
+  return selector_names.at(static_cast<std::size_t>(selector));
+}
 
 /// One call of an expression: a figure of one method, the mean over the records that the selectors leave.
 struct Measure {
-  const FigureFunction* function = nullptr;  ///< a row of figure_functions() (functions.hpp); null in no call
+  const FigureFunction* function = nullptr;  ///< a row of figure_functions(); null in no call
   std::string method;  ///< a method as the experiment writes it, its name alone where only one has it, or `*`
   std::optional<double> distance;
   std::optional<int> frame;
@@ -35,36 +63,37 @@ struct Measure {
 /// no place): none, with the nearest; more than one.
 [[nodiscard]] std::size_t select_method(const std::string& wanted, std::span<const std::string> methods);
 
-/// A call with what the run said to it.
-struct MeasuredCall {
-  std::string text;
-  double value = 0;
-  bool at_noise_floor = false;
-  std::optional<double> noise_floor{};  ///< of an error, where it is known
-  std::size_t records = 0;              ///< that the value is the mean of
+/// The value of a measure over a run.
+struct Measured {
+  std::string text;  ///< of the measure
+  std::optional<double> value;
+  std::string problem;                ///< why there is none
+  bool at_noise_floor = false;        ///< an error that the reference's own noise explains, in every record that counts
+  std::optional<double> noise_floor;  ///< of an error: what the reference's own noise causes of it, where known
+  std::set<std::string> nodes;        ///< of a time: the machines that it was taken on
+  std::size_t records = 0;            ///< that the value is the mean of
 };
 
-/// An expression's value, or why it has none, and the figures that it was made of.
+/// An expression's value, or why it has none, and the figures that it was made of, each once.
 struct Evaluation {
   std::optional<double> value;
   std::string problem;
-  std::vector<MeasuredCall> calls;
+  std::vector<Measured> calls;
   std::set<std::string> nodes{};  ///< the machines that times in it were taken on; of several there is a problem
 };
 
 /// `2 * error(toksvig, distance=4) - 0.01`: numbers, calls, `abs(...)`, + - * /, unary minus, parentheses.
-class Expression {
- public:
-  struct Node;
+struct Expression {
+  enum class Kind { number, call, negate, absolute, binary };
+  Kind kind = Kind::number;
+  double number = 0;
+  Measure measure{};                ///< of a call
+  char operation = '+';             ///< of a binary: + - * /
+  std::vector<Expression> parts{};  ///< operands
 
+  Expression() = default;
   /// Errors (usage): `place` and the column (from 1) of what does not fit, with the nearest right function.
   Expression(const std::string& text, const std::string& place);
-  explicit Expression(const Node& root);
-  Expression(const Expression&);
-  Expression(Expression&&) noexcept;
-  Expression& operator=(const Expression&) = delete;
-  Expression& operator=(Expression&&) = delete;
-  ~Expression();
 
   /// The calls from left to right.
   [[nodiscard]] std::vector<Measure> measures() const;
@@ -75,28 +104,48 @@ class Expression {
   /// Over one run, or the members of a matrix. Its methods must be the runs' (select_method). A division by 0 or a
   /// figure that was not measured is a problem.
   [[nodiscard]] Evaluation evaluate(std::span<const Results> runs) const;
-
- private:
-  std::vector<Node> root_;  // exactly one: Node is not complete here
 };
 
 /// `error(tan_gmm) < 0.5 * error(toksvig)`: two expressions with one of < <= > >= between them.
-class Inequality {
- public:
+struct Inequality {
+  Expression left;
+  std::string relation;
+  Expression right;
+
   /// Errors (usage) as those of Expression.
   Inequality(const std::string& text, const std::string& place);
 
-  [[nodiscard]] const std::string& text() const { return text_; }
-  [[nodiscard]] const Expression& left() const { return left_; }
-  [[nodiscard]] const Expression& right() const { return right_; }
-  [[nodiscard]] bool is_true(double left, double right) const;
-
- private:
-  struct Parts;
-  Inequality(std::string text, Parts parts);
-
-  std::string text_, relation_;
-  Expression left_, right_;
+  [[nodiscard]] bool is_true(double left_value, double right_value) const;
 };
+
+/// Why times of these machines are not comparable; empty for one machine. Across machines only `ratio` is comparable,
+/// because each ratio is formed on one machine.
+[[nodiscard]] std::string mixed_hosts_message(const std::set<std::string>& nodes);
+
+/// A function of a method's figures: a row of the table.
+struct FigureFunction {
+  std::string_view name;
+  std::vector<Selector> selectors;
+  /// Refuses (usage) a call that a run of the experiment would have no figure for.
+  void (*needs)(const Measure& measure, const Experiment& experiment);
+  /// Adds the figures of `method`, as the run writes it, that the measure is the mean of.
+  std::function<void(const Measure& measure, const std::string& method, const Results& run, Samples& samples)> add;
+  std::string_view absent = "no record has this figure";  ///< the problem if no record has it
+  std::string_view none = "the run has no such record";   ///< the problem if nothing was added
+};
+
+/// The table, in the order of the documentation.
+[[nodiscard]] std::span<const FigureFunction> figure_functions();
+
+/// Refuses (usage, with the measure as the place) what a run of the experiment would have no figure for: known before
+/// it starts.
+void check_measure(const Measure& measure, const Experiment& experiment);
+
+/// The same of its distance and frame alone, in an experiment over these distances and of so many frames.
+void check_distance(const Measure& measure, const std::vector<double>& distances, std::size_t frames);
+
+/// The mean over the records of the method that match, in one run or in the members of a matrix; those without the
+/// figure do not count. `measure.method` must be one of the runs'.
+[[nodiscard]] Measured measured(const Measure& measure, std::span<const Results> runs);
 
 }  // namespace footprint

@@ -213,8 +213,8 @@ TEST(Expression, AMethodIsTakenByItsTextElseByItsNameWhereThatIsClear) {
 
 TEST(Inequality, ComparesItsSides) {
   const Inequality claim("error(a) <= 0.5 * error(b)", "here");
-  EXPECT_DOUBLE_EQ(claim.left().evaluate(only(two_frames())).value.value(), 0.15);
-  EXPECT_DOUBLE_EQ(claim.right().evaluate(only(two_frames())).value.value(), 0.2);
+  EXPECT_DOUBLE_EQ(claim.left.evaluate(only(two_frames())).value.value(), 0.15);
+  EXPECT_DOUBLE_EQ(claim.right.evaluate(only(two_frames())).value.value(), 0.2);
   EXPECT_TRUE(claim.is_true(1, 1));
   EXPECT_FALSE(claim.is_true(2, 1));
   EXPECT_FALSE(Inequality("1 < 1", "").is_true(1, 1));

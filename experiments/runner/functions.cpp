@@ -1,5 +1,5 @@
 // The table of functions: for each the selectors that it takes, what the experiment must have, and its figure of a run.
-#include "experiments/runner/functions.hpp"
+#include "experiments/runner/expression.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,14 +24,6 @@ namespace {
 
 [[noreturn]] void refuse(const Measure& measure, const std::string& message, const std::string& hint) {
   throw Error(ErrorKind::usage, measure_text(measure), message, hint);
-}
-
-// The runs that a measure is over.
-std::vector<std::reference_wrapper<const Results>> selected(const Measure& measure, std::span<const Results> runs) {
-  std::vector<std::reference_wrapper<const Results>> found;
-  std::ranges::copy_if(runs, std::back_inserter(found),
-                       [&](const Results& run) { return selects(measure, run.coordinates); });
-  return found;
 }
 
 template <typename Values, typename Value>
@@ -92,10 +84,10 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
   refuse(measure, fmt::format("{} has no figure `{}`", method.name, named->quantity), "name a method that has it");
 }
 
-// ---- evaluate
+// ---- figures
 
 using Figure = std::optional<double>;
-using Evaluate = decltype(FigureFunction::evaluate);
+using Add = decltype(FigureFunction::add);
 
 // The figure of one record.
 struct Sample {
@@ -106,18 +98,7 @@ struct Sample {
   std::string node{};    // of a time
 };
 
-Measured no_figure(std::string problem) { return {.value = {}, .problem = std::move(problem)}; }
-
-Measured mean_of(double sum, std::size_t count) {
-  const double mean = sum / static_cast<double>(count);
-  if (std::isnan(mean)) return no_figure("the figure is not a number");
-  return {.value = mean, .problem = {}, .records = count};
-}
-
-bool selects_record(const Measure& measure, const std::string& method, const Record& record) {
-  return record.method == method && (!measure.distance || record.distance == *measure.distance) &&
-         (!measure.frame || record.frame == *measure.frame);
-}
+}  // namespace
 
 // Those of all records that are selected.
 class Samples {
@@ -136,14 +117,23 @@ class Samples {
     if (!sample.node.empty()) nodes_.insert(sample.node);
   }
 
-  // `absent` is the problem where none of them has the figure.
-  [[nodiscard]] Measured mean(const std::string& absent) const {
-    if (matching_ == 0) return no_figure("the run has no such record");
-    if (count_ == 0) return no_figure(absent_.empty() ? absent : absent_);
-    Measured mean = mean_of(sum_, count_);
-    mean.at_noise_floor = noisy_ == count_;
-    if (with_floor_ == count_) mean.noise_floor = floors_ / static_cast<double>(count_);
+  [[nodiscard]] Measured mean(const Measure& measure) const {
+    Measured mean;
+    mean.text = measure_text(measure);
+    const auto count = static_cast<double>(count_);
+    if (matching_ == 0) {
+      mean.problem = measure.function->none;
+    } else if (count_ == 0) {
+      mean.problem = absent_.empty() ? measure.function->absent : absent_;
+    } else if (std::isnan(sum_)) {
+      mean.problem = "the figure is not a number";
+    } else {
+      mean.value = sum_ / count;
+    }
+    mean.at_noise_floor = count_ > 0 && noisy_ == count_;
+    if (count_ > 0 && with_floor_ == count_) mean.noise_floor = floors_ / count;
     mean.nodes = nodes_;
+    mean.records = count_;
     return mean;
   }
 
@@ -154,45 +144,40 @@ class Samples {
   std::string absent_;
 };
 
-// The mean over the records that are selected; `absent` is the problem where none of them has the figure.
-Evaluate over_samples(std::function<Sample(const Measure&, const Record&)> sample, std::string absent) {
-  return [sample = std::move(sample), absent = std::move(absent)](const Measure& measure, const std::string& method,
-                                                                  std::span<const Results> runs) {
-    Samples samples;
-    for (const Results& run : selected(measure, runs)) {
-      for (const Record& record : run.records) {
-        if (selects_record(measure, method, record)) samples.add(sample(measure, record));
-      }
+namespace {
+
+// A figure of each record that is selected.
+Add over_samples(std::function<Sample(const Measure&, const Record&)> sample) {
+  return [sample = std::move(sample)](const Measure& measure, const std::string& method, const Results& run,
+                                      Samples& samples) {
+    for (const Record& record : run.records) {
+      if (record.method == method && (!measure.distance || record.distance == *measure.distance) &&
+          (!measure.frame || record.frame == *measure.frame))
+        samples.add(sample(measure, record));
     }
-    return samples.mean(absent);
   };
 }
 
-Evaluate over_records(std::function<Figure(const Record&)> figure, std::string absent = "no record has this figure") {
-  return over_samples([figure = std::move(figure)](const Measure& /*measure*/,
-                                                   const Record& record) { return Sample{.value = figure(record)}; },
-                      std::move(absent));
+Add over_records(std::function<Figure(const Record&)> figure) {
+  return over_samples([figure = std::move(figure)](const Measure& /*measure*/, const Record& record) {
+    return Sample{.value = figure(record)};
+  });
 }
 
 // A time, which belongs to the machine that it was taken on.
-Evaluate over_times(std::function<Figure(const Record&)> time) {
-  return over_samples([time = std::move(time)](const Measure& /*measure*/,
-                                               const Record& r) { return Sample{.value = time(r), .node = r.node}; },
-                      "no record has this figure");
+Add over_times(std::function<Figure(const Record&)> time) {
+  return over_samples([time = std::move(time)](const Measure& /*measure*/, const Record& r) {
+    return Sample{.value = time(r), .node = r.node};
+  });
 }
 
 template <class Value>
-Evaluate over_errors(Value RecordError::*member) {
+Add over_errors(Value RecordError::*member) {
   return over_records([member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); });
 }
 
-Evaluate over_causes(std::optional<double> ErrorCauses::*member, std::string absent) {
-  return over_records([member](const Record& r) { return r.error ? r.error->causes.*member : Figure(); },
-                      std::move(absent));
-}
-
-Evaluate over_flicker(double Flicker::*member) {
-  return over_records([member](const Record& r) { return r.flicker ? Figure((*r.flicker).*member) : Figure(); });
+Add over_causes(std::optional<double> ErrorCauses::*member) {
+  return over_records([member](const Record& r) { return r.error ? r.error->causes.*member : Figure(); });
 }
 
 // Against the run's own reference, or the one of so many samples.
@@ -209,19 +194,24 @@ Sample error_sample(const Measure& measure, const Record& record) {
           .noise_floor = other->noise_floor};
 }
 
+Sample shading_sample(const Measure& /*measure*/, const Record& record) {
+  if (!record.error) return {};
+  return {.value = record.error->causes.shading,
+          .at_noise_floor = shading_at_noise_floor(record),
+          .noise_floor = record.error->causes.shading_floor};
+}
+
 // A figure of the estimate on a GPU.
 template <class Value>
-Evaluate over_gpu(Value GpuCost::*member) {
-  return over_samples(
-      [member](const Measure& measure, const Record& record) {
-        for (const GpuCost& cost : record.gpu_costs) {
-          if (measure.gpu && cost.gpu != *measure.gpu) continue;
-          if (cost.failure) return Sample{.value = {}, .absent = *cost.failure};
-          return Sample{.value = static_cast<double>(cost.*member)};
-        }
-        return Sample{};
-      },
-      "no record has an estimate for that GPU");
+Add over_gpu(Value GpuCost::*member) {
+  return over_samples([member](const Measure& measure, const Record& record) {
+    for (const GpuCost& cost : record.gpu_costs) {
+      if (measure.gpu && cost.gpu != *measure.gpu) continue;
+      if (cost.failure) return Sample{.value = {}, .absent = *cost.failure};
+      return Sample{.value = static_cast<double>(cost.*member)};
+    }
+    return Sample{};
+  });
 }
 
 double build_ms(const Record& record) { return record.frame_build_ms.value_or(0.0); }
@@ -232,57 +222,37 @@ double shading_ms(const Record& record) {
   return record.frame_ms.median - (timed ? build_ms(record) : 0.0);
 }
 
-// The mean over the footprints.
-Evaluate over_footprints(double FootprintNdf::*member) {
-  return [member](const Measure& measure, const std::string& method, std::span<const Results> runs) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (const Results& run : selected(measure, runs)) {
-      for (const FootprintNdf& figures : run.ndf) {
-        if (figures.method != method || (measure.footprint && figures.footprint != *measure.footprint)) continue;
-        sum += figures.*member;
-        ++count;
-      }
+Add over_footprints(double FootprintNdf::*member) {
+  return [member](const Measure& measure, const std::string& method, const Results& run, Samples& samples) {
+    for (const FootprintNdf& figures : run.ndf) {
+      if (figures.method == method && (!measure.footprint || figures.footprint == *measure.footprint))
+        samples.add({.value = figures.*member});
     }
-    return count > 0 ? mean_of(sum, count) : no_figure("no such footprint was looked into");
   };
 }
 
-// The mean over the distances.
-Measured supersampling_ms(const Measure& measure, const std::string& /*method*/, std::span<const Results> runs) {
-  Samples samples;
-  for (const Results& run : selected(measure, runs)) {
-    for (const SupersamplingPoint& point : run.supersampling) {
-      if (point.spp != measure.spp || (measure.distance && point.distance != *measure.distance)) continue;
+void add_supersampling(const Measure& measure, const std::string& /*method*/, const Results& run, Samples& samples) {
+  for (const SupersamplingPoint& point : run.supersampling) {
+    if (point.spp == measure.spp && (!measure.distance || point.distance == *measure.distance))
       samples.add({.value = point.ms, .node = point.node});
-    }
   }
-  Measured mean = samples.mean("");
-  return mean.value ? mean : no_figure("no such count of samples was timed");
 }
 
-Measured quantity_figure(const Measure& measure, const std::string& method, std::span<const Results> runs) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (const Results& run : selected(measure, runs)) {
-    for (const QuantityFigure& figure : run.quantities) {
-      if (figure.method != method || figure.name != measure.name) continue;
-      sum += figure.value;
-      ++count;
-    }
+void add_quantities(const Measure& measure, const std::string& method, const Results& run, Samples& samples) {
+  for (const QuantityFigure& figure : run.quantities) {
+    if (figure.method == method && figure.name == measure.name) samples.add({.value = figure.value});
   }
-  return count > 0 ? mean_of(sum, count) : no_figure("the run has no such figure");
 }
 
 std::vector<FigureFunction> function_table() {
   using enum Selector;
   const std::vector<Selector> records{distance, frame, scene, size, filter, seed};
   const std::vector<Selector> on_gpu{distance, frame, scene, size, filter, seed, gpu};
+  const std::vector<Selector> of_ndf{footprint, scene, size, seed};
+  constexpr const char *no_bound = "the bound was not drawn", *no_estimate = "no record has an estimate for that GPU",
+                       *no_footprint = "no such footprint was looked into";
   return {
-      {"error",
-       {distance, frame, spp, scene, size, filter, seed},
-       its_reference,
-       over_samples(error_sample, "no record has this figure")},
+      {"error", {distance, frame, spp, scene, size, filter, seed}, its_reference, over_samples(error_sample)},
       {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
       {"relmse", records, nothing, over_errors(&RecordError::relmse)},
       {"psnr", records, nothing, over_errors(&RecordError::psnr)},
@@ -290,82 +260,47 @@ std::vector<FigureFunction> function_table() {
       {"luminance_distance", records, nothing, over_errors(&RecordError::luminance_distance)},
       {"representation", records, nothing, over_errors(&RecordError::representation)},
       {"filtering", records, nothing, over_errors(&RecordError::filtering)},
-      {"shading_error", records, nothing,
-       over_samples(
-           [](const Measure& /*measure*/, const Record& r) {
-             return Sample{.value = r.error ? r.error->causes.shading : Figure(),
-                           .at_noise_floor = shading_at_noise_floor(r),
-                           .noise_floor = r.error ? r.error->causes.shading_floor : Figure()};
-           },
-           "no pixel is interior")},
-      {"edge_error", records, nothing, over_causes(&ErrorCauses::edges, "no pixel has an edge")},
-      {"filter_error", records, nothing, over_causes(&ErrorCauses::filter, "the bound was not drawn")},
-      {"method_error", records, nothing, over_causes(&ErrorCauses::method, "the bound was not drawn")},
-      {"light_error", records, nothing, over_causes(&ErrorCauses::light, "there is no environment")},
+      {"shading_error", records, nothing, over_samples(shading_sample), "no pixel is interior"},
+      {"edge_error", records, nothing, over_causes(&ErrorCauses::edges), "no pixel has an edge"},
+      {"filter_error", records, nothing, over_causes(&ErrorCauses::filter), no_bound},
+      {"method_error", records, nothing, over_causes(&ErrorCauses::method), no_bound},
+      {"light_error", records, nothing, over_causes(&ErrorCauses::light), "there is no environment"},
       {"interior_pixels", records, nothing,
        over_records([](const Record& r) { return static_cast<double>(r.pixels.interior); })},
-      {"noise_floor", records, nothing,
-       over_records([](const Record& r) { return r.error ? r.error->noise_floor : Figure(); })},
+      {"noise_floor", records, nothing, over_errors(&RecordError::noise_floor)},
       {"equivalent_spp", records, nothing,
        over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
-      {"flicker", records, a_zoom,
-       over_samples(
-           [](const Measure& /*measure*/, const Record& r) {
-             return r.flicker ? Sample{.value = r.flicker->mean, .noise_floor = r.flicker->noise_floor} : Sample{};
-           },
-           "no record has this figure")},
-      {"flicker_p99", records, a_zoom, over_flicker(&Flicker::p99)},
+      {"flicker", records, a_zoom, over_samples([](const Measure& /*measure*/, const Record& r) {
+         return r.flicker ? Sample{.value = r.flicker->mean, .noise_floor = r.flicker->noise_floor} : Sample{};
+       })},
+      {"flicker_p99", records, a_zoom,
+       over_records([](const Record& r) { return r.flicker ? Figure(r.flicker->p99) : Figure(); })},
       {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
-      {"fps", records, nothing, over_times([](const Record& r) { return r.fps; })},
-      {"build", records, nothing,
-       over_times([](const Record& r) { return r.frame_build_ms ? Figure(*r.frame_build_ms) : Figure(); })},
+      {"fps", records, nothing, over_times(&Record::fps)},
+      {"build", records, nothing, over_times(&Record::frame_build_ms)},
       {"shading", records, nothing, over_times(shading_ms)},
       {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
-      {"supersampling_time", {distance, spp, scene, size, filter, seed}, a_timed_count, supersampling_ms},
+      {"supersampling_time",
+       {distance, spp, scene, size, filter, seed},
+       a_timed_count,
+       add_supersampling,
+       "",
+       "no such count of samples was timed"},
       {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
-      {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns)},
-      {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions)},
-      {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads)},
+      {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns), no_estimate},
+      {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions), no_estimate},
+      {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads), no_estimate},
       {"precompute", records, nothing,
-       over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); },
-                    "the bake came from the cache (give --no-cache)")},
+       over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }),
+       "the bake came from the cache (give --no-cache)"},
       {"bytes", records, nothing,
        over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
-      {"bytes_per_texel", records, nothing, over_records([](const Record& r) { return r.precompute_bytes_per_texel; })},
-      {"ndf_l2", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::l2)},
-      {"ndf_energy", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::energy)},
-      {"ndf_peak", {footprint, scene, size, seed}, a_footprint, over_footprints(&FootprintNdf::peak)},
-      {"quantity", {name, scene, size, filter, seed}, a_quantity, quantity_figure}};
+      {"bytes_per_texel", records, nothing, over_records(&Record::precompute_bytes_per_texel)},
+      {"ndf_l2", of_ndf, a_footprint, over_footprints(&FootprintNdf::l2), "", no_footprint},
+      {"ndf_energy", of_ndf, a_footprint, over_footprints(&FootprintNdf::energy), "", no_footprint},
+      {"ndf_peak", of_ndf, a_footprint, over_footprints(&FootprintNdf::peak), "", no_footprint},
+      {"quantity", {name, scene, size, filter, seed}, a_quantity, add_quantities, "", "the run has no such figure"}};
 }
-
-}  // namespace
-
-std::string_view selector_name(Selector selector) {
-  switch (selector) {
-    case Selector::distance:
-      return "distance";
-    case Selector::frame:
-      return "frame";
-    case Selector::spp:
-      return "spp";
-    case Selector::scene:
-      return "scene";
-    case Selector::size:
-      return "size";
-    case Selector::filter:
-    case Selector::footprint:
-      return "footprint";
-    case Selector::seed:
-      return "seed";
-    case Selector::gpu:
-      return "gpu";
-    case Selector::name:
-      break;
-  }
-  return "name";
-}
-
-namespace {
 
 // Every value that members are chosen by must be on an axis of the matrix.
 void check_slice(const Measure& measure, const Experiment& experiment) {
@@ -412,7 +347,12 @@ void check_distance(const Measure& measure, const std::vector<double>& distances
 Measured measured(const Measure& measure, std::span<const Results> runs) {
   const std::vector<std::string> methods =
       methods_in_order(runs | std::views::transform(&Results::records) | std::views::join);
-  return measure.function->evaluate(measure, methods[select_method(measure.method, methods)], runs);
+  const std::string& method = methods[select_method(measure.method, methods)];
+  Samples samples;
+  for (const Results& run : runs) {
+    if (selects(measure, run.coordinates)) measure.function->add(measure, method, run, samples);
+  }
+  return samples.mean(measure);
 }
 
 }  // namespace footprint

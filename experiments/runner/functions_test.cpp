@@ -1,5 +1,5 @@
 // The table of functions against the list that docs/reference/experiments.md prints.
-#include "experiments/runner/functions.hpp"
+#include "experiments/runner/expression.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "experiments/runner/functions.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
@@ -69,27 +68,19 @@ std::optional<Measure> single_measure(const Threshold& threshold) {
 }
 
 void add_figures(const Evaluation& evaluation, std::vector<ClaimFigure>& figures) {
-  for (const MeasuredCall& call : evaluation.calls) {
+  for (const Measured& call : evaluation.calls) {
     if (std::ranges::find(figures, call.text, &ClaimFigure::measure) != figures.end()) continue;
-    figures.push_back({.measure = call.text, .value = call.value, .at_noise_floor = call.at_noise_floor});
+    figures.push_back({.measure = call.text, .value = *call.value, .at_noise_floor = call.at_noise_floor});
   }
 }
 
 ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
-  const Evaluation left = claim.inequality.left().evaluate(runs);
-  const Evaluation right = claim.inequality.right().evaluate(runs);
-  ClaimOutcome outcome{.name = claim.name,
-                       .text = claim.text,
-                       .source = claim.source,
-                       .inequality = claim.inequality.text(),
-                       .expect = claim.expect,
-                       .outcome = Verdict::undecided,
-                       .reason = claim.reason,
-                       .problem = left.problem.empty() ? right.problem : left.problem,
-                       .left = left.value,
-                       .right = right.value,
-                       .figures = {},
-                       .place = claim.place};
+  const Evaluation left = claim.inequality.left.evaluate(runs);
+  const Evaluation right = claim.inequality.right.evaluate(runs);
+  ClaimOutcome outcome = claim.stated;
+  outcome.problem = left.problem.empty() ? right.problem : left.problem;
+  outcome.left = left.value;
+  outcome.right = right.value;
   add_figures(left, outcome.figures);
   add_figures(right, outcome.figures);
   std::set<std::string> nodes = left.nodes;
@@ -121,8 +112,7 @@ ThresholdOutcome outcome_of(const Threshold& threshold, std::span<const Results>
 }
 
 bool is_over_times(const Claim& claim, std::span<const Results> runs) {
-  return !claim.inequality.left().evaluate(runs).nodes.empty() ||
-         !claim.inequality.right().evaluate(runs).nodes.empty();
+  return !claim.inequality.left.evaluate(runs).nodes.empty() || !claim.inequality.right.evaluate(runs).nodes.empty();
 }
 
 // The claims over times, decided again by the estimates for each GPU.
@@ -135,7 +125,7 @@ std::vector<SecondVerdict> second_verdicts(const Experiment& experiment, std::sp
     for (const Claim& claim : experiment.claims) {
       if (!is_over_times(claim, runs)) continue;
       const ClaimOutcome outcome = outcome_of(claim, estimated);
-      verdicts.push_back({.claim = claim.name,
+      verdicts.push_back({.claim = outcome.name,
                           .gpu = gpu,
                           .left = outcome.left,
                           .right = outcome.right,
@@ -183,7 +173,7 @@ void NoiseGuard::check(const Threshold& threshold) const {
   if (!measure) return;
   const Evaluation found = threshold.measure.evaluate(known_);
   if (found.calls.empty() || !found.calls.front().noise_floor) return;
-  const MeasuredCall& call = found.calls.front();
+  const Measured& call = found.calls.front();
   const auto count = static_cast<double>(std::max(count_of(*measure), call.records));
   const double least = *call.noise_floor * static_cast<double>(call.records) / count;
   if (threshold.limit > least) return;
@@ -219,12 +209,9 @@ ExperimentReport judge(const Experiment& experiment, std::span<const Results> ru
                           .pictures = {}};
   for (const PublishedValue& published : experiment.published) {
     const Evaluation measured = published.measure.evaluate(runs);
-    report.published.push_back({.figure = published.figure,
-                                .measure = published.measure.text(),
-                                .unit = published.unit,
-                                .published = published.value,
-                                .measured = measured.value,
-                                .note = measured.value ? published.note : measured.problem});
+    PublishedFigure& figure = report.published.emplace_back(published.printed);
+    figure.measured = measured.value;
+    if (!measured.value) figure.note = measured.problem;
   }
   for (const Claim& claim : experiment.claims) report.claims.push_back(outcome_of(claim, runs));
   for (const Threshold& threshold : experiment.thresholds) report.thresholds.push_back(outcome_of(threshold, runs));

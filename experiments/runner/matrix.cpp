@@ -165,16 +165,6 @@ bool is_over(const Expression& expression, const std::vector<Coordinates>& membe
   });
 }
 
-// Expressions are moved and not assigned.
-template <class Item, class Keeps>
-void keep_if(std::vector<Item>& items, Keeps keeps) {
-  std::vector<Item> remaining;
-  for (Item& item : items) {
-    if (keeps(item)) remaining.push_back(std::move(item));
-  }
-  items = std::move(remaining);
-}
-
 }  // namespace
 
 std::vector<std::string> axis_keys(std::string_view table) {
@@ -241,17 +231,17 @@ bool selects(const Measure& measure, const Coordinates& member) {
 
 std::vector<std::string> leave_out(Experiment& whole, const std::vector<Coordinates>& missing) {
   std::vector<std::string> names;
-  keep_if(whole.claims, [&](const Claim& claim) {
-    if (!is_over(claim.inequality.left(), missing) && !is_over(claim.inequality.right(), missing)) return true;
-    names.push_back(claim.name);
-    return false;
+  std::erase_if(whole.claims, [&](const Claim& claim) {
+    const bool goes = is_over(claim.inequality.left, missing) || is_over(claim.inequality.right, missing);
+    if (goes) names.push_back(claim.stated.name);
+    return goes;
   });
-  keep_if(whole.thresholds, [&](const Threshold& threshold) {
-    if (!is_over(threshold.measure, missing)) return true;
-    names.push_back(threshold.measure.text());
-    return false;
+  std::erase_if(whole.thresholds, [&](const Threshold& threshold) {
+    const bool goes = is_over(threshold.measure, missing);
+    if (goes) names.push_back(threshold.measure.text());
+    return goes;
   });
-  keep_if(whole.published, [&](const PublishedValue& published) { return !is_over(published.measure, missing); });
+  std::erase_if(whole.published, [&](const PublishedValue& value) { return is_over(value.measure, missing); });
   return names;
 }
 

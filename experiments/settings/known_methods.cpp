@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
-#include "experiments/settings/setting_types.hpp"
+#include "experiments/settings/setting.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/bake/method_file.hpp"
@@ -13,18 +14,22 @@
 namespace footprint {
 namespace {
 
-using namespace setting_types;
+// The settings of histories, whose keys are options of methods too.
+auto history_options() {
+  return std::views::filter(run_settings(), [](const Setting& setting) { return setting.key.starts_with("history"); });
+}
 
 void read_option(RunSettings& run, const MethodSpec& method, const std::string& name, const std::string& value) {
-  const auto option = std::ranges::find(history_options(), name, &HistoryOption::name);
-  option->type.read_text(run, fmt::format("{} of method {}", name, method.name), value);
+  for (const Setting& option : history_options()) {
+    if (option.key == name) option.type.read_text(run, fmt::format("{} of method {}", name, method.name), value);
+  }
 }
 
 // Moves the options of its history out of those of its maps, whose names are the method's own.
 void separate_history(MethodSpec& method) {
   RunSettings unused;
-  for (const HistoryOption& option : history_options()) {
-    const auto given = method.options.find(std::string(option.name));
+  for (const Setting& option : history_options()) {
+    const auto given = method.options.find(std::string(option.key));
     if (given == method.options.end()) continue;
     read_option(unused, method, given->first, given->second);
     method.history.insert(method.options.extract(given));
@@ -76,26 +81,6 @@ std::vector<std::string> quantity_names(std::span<const MethodSpec> methods) {
     }
   }
   return names;
-}
-
-const std::array<HistoryOption, 4>& history_options() {
-  static const std::array<HistoryOption, 4> options{{
-      {.name = "history",
-       .type = whole_number([](RunSettings& run) -> int& { return run.history.frames; }, 0, 1024),
-       .help = "frames of the first view, or of each distance, that are accumulated before an image is shown; later "
-               "frames of a path are added to them (docs/explanation/temporal.md); 0: no history"},
-      {.name = "history_alpha",
-       .type = positive_number([](RunSettings& run) -> double& { return run.history.alpha; }, 0.001, 1),
-       .help = "share of the newest frame in a history"},
-      {.name = "history_clamp",
-       .type = one_word([](RunSettings& run) -> HistoryClamp& { return run.history.clamp; }, history_clamps, "clamp"),
-       .help = "limits of a history from the 3 x 3 pixels of the newest frame: none, their range, or also one "
-               "deviation from their mean"},
-      {.name = "history_jitter",
-       .type = one_word([](RunSettings& run) -> bool& { return run.history.jitter; }, switch_words, "switch"),
-       .help = "whether the samples of a history's frames move within the pixels"},
-  }};
-  return options;
 }
 
 std::vector<MethodSpec> parse_methods_with_histories(const std::string& text, const std::filesystem::path& folder) {

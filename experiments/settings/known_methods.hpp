@@ -1,14 +1,12 @@
 // Methods of a run: read, checked against those of the program, their figures that no image shows, and their histories.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "experiments/settings/setting.hpp"
+#include "experiments/settings/run_settings.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/options.hpp"
 
@@ -34,15 +32,6 @@ void take_known(std::span<MethodSpec> methods, const std::filesystem::path& fold
 
 /// The names of all figures of some methods, each once.
 [[nodiscard]] std::vector<std::string> quantity_names(std::span<const MethodSpec> methods);
-
-/// A setting of histories.
-struct HistoryOption {
-  std::string_view name;  ///< of the option of a method, and of the key of a file
-  SettingType type;
-  std::string_view help;
-};
-
-[[nodiscard]] const std::array<HistoryOption, 4>& history_options();
 
 /// Methods, each of which may have options of its own history. Errors (usage): those of parse_known_methods, or a value
 /// that its option does not take.

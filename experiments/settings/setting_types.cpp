@@ -2,6 +2,7 @@
 #include "experiments/settings/setting_types.hpp"
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -37,13 +38,19 @@ std::string range_text(Number low, Number high) {
 }
 
 template <typename Number>
-Number parse_whole_number(std::string_view option, std::string_view text, Number low, Number high) {
+Number parse_whole_number(Number low, Number high, std::string_view option, std::string_view text) {
   const auto number = parse_whole_of<Number>(text);
   if (number && *number >= low && *number <= high) return *number;
   throw not_valid(option, text, "is not valid", fmt::format("give a whole number, {}", range_text(low, high)));
 }
 
-double parse_positive(std::string_view option, std::string_view text, double low, double high) {
+std::vector<int> parse_whole_numbers(int low, int high, std::string_view option, const std::string& text) {
+  std::vector<int> numbers;
+  for (const std::string& part : parts_of(text)) numbers.push_back(parse_whole_number(low, high, option, part));
+  return numbers;
+}
+
+double parse_positive(double low, double high, std::string_view option, std::string_view text) {
   const std::string hint = fmt::format("give a number from {} to {}", low, high);
   const auto number = parse_whole_of<double>(text);
   if (!number || !std::isfinite(*number) || *number <= 0.0)
@@ -53,10 +60,16 @@ double parse_positive(std::string_view option, std::string_view text, double low
   return *number;
 }
 
-double parse_angle(std::string_view option, std::string_view text, double most) {
+double parse_angle(double most, std::string_view option, std::string_view text) {
   const auto number = parse_whole_of<double>(text);
   if (number && std::abs(*number) <= most && *number != 0.0) return *number;
   throw not_valid(option, text, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
+}
+
+double parse_seconds(std::string_view option, std::string_view text) {
+  const auto number = parse_whole_of<double>(text);
+  if (number && std::abs(*number) <= largest_seconds) return *number;
+  throw not_valid(option, text, "is not a time", fmt::format("give seconds from -{0} to {0}", largest_seconds));
 }
 
 glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
@@ -94,10 +107,10 @@ glm::ivec2 parse_size(std::string_view option, std::string_view text) {
   return size;
 }
 
-std::vector<double> parse_distances(std::string_view option, const std::string& text, std::size_t most) {
+std::vector<double> parse_distances(std::size_t most, std::string_view option, const std::string& text) {
   std::vector<double> distances;
   for (const std::string& part : parts_of(text)) {
-    const double distance = parse_positive(option, part, smallest_distance, largest_distance);
+    const double distance = parse_positive(smallest_distance, largest_distance, option, part);
     if (std::ranges::find(distances, distance) != distances.end())
       throw not_valid(option, part, "is given twice", "give each once");
     distances.push_back(distance);
@@ -123,6 +136,21 @@ MethodSpec parse_one_method(std::string_view option, const std::string& text, co
   throw not_valid(option, text, "is more than one method", "name one");
 }
 
+std::string parse_name(const char* hint, std::string_view option, const std::string& text) {
+  if (text.empty()) throw not_valid(option, text, "is empty", hint);
+  return text;
+}
+
+FootprintFilter parse_filter(std::string_view option, const std::string& text) {
+  return parse_footprint_filter(text, option);
+}
+
+std::vector<std::string> parse_gpus(std::string_view option, const std::string& text) {
+  std::vector<std::string> names;
+  for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
+  return names;
+}
+
 EffectSet parse_effects(std::string_view option, const std::string& text) {
   const std::vector<std::string> names = effect_names(EffectSet{}.set());
   EffectSet effects;
@@ -130,50 +158,64 @@ EffectSet parse_effects(std::string_view option, const std::string& text) {
   return effects;
 }
 
-// The text of a value that may be missing.
+// A value as a text: none of a value that is missing.
 template <class Value>
-std::function<std::string(RunSettings)> text_of(Field<std::optional<Value>> field) {
-  return [=](RunSettings run) { return field(run) ? fmt::format("{}", *field(run)) : std::string(); };
+std::string written(const Value& value) {
+  if constexpr (requires { value.has_value(); }) {
+    return value ? written(*value) : std::string();
+  } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+    return value.string();
+  } else {
+    return fmt::format("{}", value);
+  }
+}
+
+// A value of which `parse(option, text)` makes what the field stores.
+template <class Value, class Parse, class Write>
+SettingType typed(Field<Value> field, std::string word, std::string takes, Parse parse, Write write) {
+  return {.word = std::move(word),
+          .takes = std::move(takes),
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run) = parse(option, text); },
+          .text = [=](RunSettings run) { return std::string(write(field(run))); }};
+}
+
+template <class Value, class Parse>
+SettingType typed(Field<Value> field, std::string word, std::string takes, Parse parse) {
+  return typed(field, std::move(word), std::move(takes), parse, written<Value>);
+}
+
+// The same of a value that is a list in a file, whose parts `separator` joins in a text.
+SettingType listed(SettingType type, std::string file_takes, char separator = ',') {
+  type.file_takes = std::move(file_takes);
+  type.separator = separator;
+  return type;
 }
 
 template <class Number>
 SettingType whole_number_of(Field<Number> field, Number low, Number high) {
-  return {.word = "N",
-          .takes = range_text(low, high),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_whole_number(option, text, low, high); },
-          .text = [=](RunSettings run) { return fmt::format("{}", field(run)); }};
+  return typed(field, "N", range_text(low, high), std::bind_front(parse_whole_number<Number>, low, high));
 }
 
-// A text that may not be empty, for a field of any type.
 template <class Value>
-SettingType some_text(Field<std::optional<Value>> field, const char* word, const char* hint,
-                      std::string (*text)(const Value&)) {
-  return {.word = word,
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& given) {
-                if (given.empty()) throw not_valid(option, given, "is empty", hint);
-                field(run) = given;
-              },
-          .text = [=](RunSettings run) { return field(run) ? text(*field(run)) : std::string(); }};
+SettingType positive(Field<Value> field, double low, double high) {
+  return typed(field, "X", fmt::format("{} to {}", low, high), std::bind_front(parse_positive, low, high));
 }
+
+const auto joined = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
 
 }  // namespace
 
 SettingType any_text(Field<std::string> field, const char* word) {
-  return {.word = word,
-          .read_text = [=](RunSettings& run, std::string_view, const std::string& text) { field(run) = text; },
-          .text = [=](RunSettings run) { return field(run); }};
+  return typed(field, word, "", [](std::string_view, const std::string& text) { return text; });
 }
 
 SettingType any_name(Field<std::optional<std::string>> field, const char* word) {
-  return some_text<std::string>(field, word, "give a name, or a number from 0",
-                                [](const std::string& name) { return name; });
+  return typed(field, word, "", std::bind_front(parse_name, "give a name, or a number from 0"));
 }
 
 SettingType file_path(Field<std::optional<std::filesystem::path>> field) {
-  return some_text<std::filesystem::path>(field, "FILE", "name a file",
-                                          [](const std::filesystem::path& path) { return path.string(); });
+  return typed(field, "FILE", "", std::bind_front(parse_name, "name a file"));
 }
 
 SettingType whole_number(Field<int> field, int low, int high) { return whole_number_of(field, low, high); }
@@ -183,67 +225,28 @@ SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uin
 }
 
 SettingType whole_numbers(Field<std::vector<int>> field, int low, int high) {
-  return {
-      .word = "LIST",
-      .file_takes = fmt::format("a list, each {} to {}", low, high),
-      .read_text =
-          [=](RunSettings& run, std::string_view option, const std::string& text) {
-            field(run).clear();
-            for (const std::string& part : parts_of(text))
-              field(run).push_back(parse_whole_number(option, part, low, high));
-          },
-      .text =
-          [=](RunSettings run) { return field(run).empty() ? "" : fmt::format("[{}]", fmt::join(field(run), ", ")); },
-      .separator = ','};
+  const auto write = [](const auto& all) { return all.empty() ? "" : fmt::format("[{}]", fmt::join(all, ", ")); };
+  return listed(typed(field, "LIST", "", std::bind_front(parse_whole_numbers, low, high), write),
+                fmt::format("a list, each {} to {}", low, high));
 }
 
 SettingType positive_number(Field<std::optional<double>> field, double low, double high) {
-  return {.word = "X",
-          .takes = fmt::format("{} to {}", low, high),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_positive(option, text, low, high); },
-          .text = text_of(field)};
+  return positive(field, low, high);
 }
 
-SettingType positive_number(Field<double> field, double low, double high) {
-  return {.word = "X",
-          .takes = fmt::format("{} to {}", low, high),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_positive(option, text, low, high); },
-          .text = [=](RunSettings run) { return fmt::format("{:g}", field(run)); }};
-}
+SettingType positive_number(Field<double> field, double low, double high) { return positive(field, low, high); }
 
 SettingType angle(Field<std::optional<double>> field, double most) {
-  return {.word = "DEGREES",
-          .takes = fmt::format("-{0} to {0}", most),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_angle(option, text, most); },
-          .text = text_of(field)};
+  return typed(field, "DEGREES", fmt::format("-{0} to {0}", most), std::bind_front(parse_angle, most));
 }
 
 SettingType seconds(Field<std::optional<double>> field) {
-  return {.word = "SECONDS",
-          .takes = fmt::format("-{0} to {0}", largest_seconds),
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& text) {
-                const auto number = parse_whole_of<double>(text);
-                if (!number || !(std::abs(*number) <= largest_seconds))
-                  throw not_valid(option, text, "is not a time",
-                                  fmt::format("give seconds from -{0} to {0}", largest_seconds));
-                field(run) = *number;
-              },
-          .text = text_of(field)};
+  return typed(field, "SECONDS", fmt::format("-{0} to {0}", largest_seconds), parse_seconds);
 }
 
 SettingType direction(Field<std::optional<glm::dvec3>> field) {
-  return {.word = "X,Y,Z",
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_direction(option, text); },
-          .text =
-              [=](RunSettings run) {
-                const std::optional<glm::dvec3>& axis = field(run);
-                return axis ? fmt::format("{},{},{}", axis->x, axis->y, axis->z) : "";
-              }};
+  const auto write = [](const auto& axis) { return axis ? fmt::format("{},{},{}", axis->x, axis->y, axis->z) : ""; };
+  return typed(field, "X,Y,Z", "", parse_direction, write);
 }
 
 SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
@@ -251,7 +254,7 @@ SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
           .takes = range_text(low, high),
           .read_text =
               [=](RunSettings& run, std::string_view option, const std::string& text) {
-                field(run).spp = parse_whole_number(option, text, low, high);
+                field(run).spp = parse_whole_number(low, high, option, text);
                 field(run).fixed_spp = true;
               },
           .text = [=](RunSettings run) { return fmt::format("{}", field(run).spp); }};
@@ -265,7 +268,7 @@ SettingType noise(Field<ReferenceSettings> field) {
                 field(run).by_noise = true;
                 field(run).noise = text == "auto"
                                        ? std::nullopt
-                                       : std::optional(parse_positive(option, text, least_noise, most_noise));
+                                       : std::optional(parse_positive(least_noise, most_noise, option, text));
               },
           .text =
               [=](RunSettings run) {
@@ -276,39 +279,27 @@ SettingType noise(Field<ReferenceSettings> field) {
 
 SettingType distances(Field<std::vector<double>> field, std::size_t most) {
   const std::string range = fmt::format("{} to {}", smallest_distance, largest_distance);
-  return {.word = most == 1 ? "X" : "LIST",
-          .takes = most == 1 ? range : range + " each, comma-separated",
-          .file_takes = "a list, each " + range,
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_distances(option, text, most); },
-          .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(field(run), ",")); },
-          .separator = ','};
+  const bool is_one = most == 1;
+  return listed(typed(field, is_one ? "X" : "LIST", is_one ? range : range + " each, comma-separated",
+                      std::bind_front(parse_distances, most), joined),
+                "a list, each " + range);
 }
 
 SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
-  return {.word = "WIDTHxHEIGHT",
-          .takes = fmt::format("1 to {} per side, as memory permits", max_frame_side),
-          .file_takes = fmt::format("[width, height] or \"WIDTHxHEIGHT\", 1 to {} each", max_frame_side),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_size(option, text); },
-          .text = [=](RunSettings run) { return field(run) ? fmt::format("{}x{}", field(run)->x, field(run)->y) : ""; },
-          .separator = 'x'};
+  const auto write = [](const auto& size) { return size ? fmt::format("{}x{}", size->x, size->y) : ""; };
+  const std::string takes = fmt::format("1 to {} per side, as memory permits", max_frame_side);
+  return listed(typed(field, "WIDTHxHEIGHT", takes, parse_size, write),
+                fmt::format("[width, height] or \"WIDTHxHEIGHT\", 1 to {} each", max_frame_side), 'x');
 }
 
 SettingType exposure(Field<std::optional<Exposure>> field) {
-  return {.word = "X",
-          .takes = "above 0, or auto",
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_exposure(option, text); },
-          .text = [=](RunSettings run) { return field(run) ? fmt::format("{}", field(run)->factor) : "auto"; }};
+  const auto write = [](const auto& exposure) { return exposure ? fmt::format("{}", exposure->factor) : "auto"; };
+  return typed(field, "X", "above 0, or auto", parse_exposure, write);
 }
 
 SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
-  return {.word = "FILTER",
-          .takes = footprint_filter_choices(),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_footprint_filter(text, option); },
-          .text = [=](RunSettings run) { return field(run) ? footprint_filter_text(*field(run)) : ""; }};
+  const auto write = [](const auto& filter) { return filter ? footprint_filter_text(*filter) : ""; };
+  return typed(field, "FILTER", footprint_filter_choices(), parse_filter, write);
 }
 
 SettingType one_method(Field<std::vector<MethodSpec>> field, MethodParser parse) {
@@ -331,37 +322,24 @@ SettingType methods(Field<std::vector<MethodSpec>> field, MethodParser parse) {
                 const bool are_all = option.empty() && text == "all";  // in files
                 field(run) = are_all ? every_method() : parse(text, run.method_folder);
               },
-          .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(texts_of(field(run)), ",")); },
+          .text = [=](RunSettings run) { return joined(texts_of(field(run))); },
           .separator = ','};
 }
 
 SettingType effects(Field<EffectSet> field) {
-  return {.word = "LIST",
-          .takes = "as cast_shadow,fresnel",
-          .file_takes = R"(a list as ["cast_shadow"])",
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse_effects(option, text); },
-          .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(effect_names(field(run)), ",")); },
-          .separator = ','};
+  const auto write = [](const EffectSet& effects) { return joined(effect_names(effects)); };
+  return listed(typed(field, "LIST", "as cast_shadow,fresnel", parse_effects, write), R"(a list as ["cast_shadow"])");
 }
 
 SettingType gpus(Field<std::vector<std::string>> field) {
-  return {.word = "NAME,...",
-          .takes = fmt::format("{}, all", fmt::join(chip_names(), ", ")),
-          .file_takes = R"(a list as ["Steam Deck", "RX 6800"], or ["all"])",
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& text) {
-                std::vector<std::string> names;
-                for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
-                field(run) = names;
-              },
-          .text = [=](RunSettings run) { return fmt::format("{}", fmt::join(field(run), ",")); },
-          .separator = ','};
+  const std::string takes = fmt::format("{}, all", fmt::join(chip_names(), ", "));
+  return listed(typed(field, "NAME,...", takes, parse_gpus, joined),
+                R"(a list as ["Steam Deck", "RX 6800"], or ["all"])");
 }
 
 SettingType no_folder(Field<std::optional<std::filesystem::path>> field) {
-  return {.read_text = [=](RunSettings& run, std::string_view, const std::string&) { field(run).reset(); },
-          .text = [](const RunSettings&) { return std::string(); }};
+  return typed(
+      field, "", "", [](std::string_view, const std::string&) { return std::nullopt; }, [](const auto&) { return ""; });
 }
 
 }  // namespace footprint::setting_types

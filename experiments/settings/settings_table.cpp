@@ -285,21 +285,36 @@ std::vector<Setting> view_settings() {
   };
 }
 
-// The history of all methods: `--history-alpha` for the option `history_alpha` of one of them.
+// A method may have an option of the same key for its own history.
 std::vector<Setting> history_settings() {
-  static const std::array<std::string_view, 4> options{"--history", "--history-alpha", "--history-clamp",
-                                                       "--history-jitter"};
-  std::vector<Setting> settings;
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    const auto& [name, type, help] = history_options()[i];
-    settings.push_back({.option = options[i],
-                        .commands = with_a_history,
-                        .table = "experiment",
-                        .key = name,
-                        .type = type,
-                        .help = help});
-  }
-  return settings;
+  return {
+      {.option = "--history",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history",
+       .type = whole_number([](Run& run) -> int& { return run.history.frames; }, 0, 1024),
+       .help = "frames of the first view, or of each distance, that are accumulated before an image is shown; later "
+               "frames of a path are added to them (docs/explanation/temporal.md); 0: no history"},
+      {.option = "--history-alpha",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history_alpha",
+       .type = positive_number([](Run& run) -> double& { return run.history.alpha; }, 0.001, 1),
+       .help = "share of the newest frame in a history"},
+      {.option = "--history-clamp",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history_clamp",
+       .type = one_word([](Run& run) -> HistoryClamp& { return run.history.clamp; }, history_clamps, "clamp"),
+       .help = "limits of a history from the 3 x 3 pixels of the newest frame: none, their range, or also one "
+               "deviation from their mean"},
+      {.option = "--history-jitter",
+       .commands = with_a_history,
+       .table = "experiment",
+       .key = "history_jitter",
+       .type = one_word([](Run& run) -> bool& { return run.history.jitter; }, switch_words, "switch"),
+       .help = "whether the samples of a history's frames move within the pixels"},
+  };
 }
 
 std::vector<Setting> reference_settings() {

@@ -19,17 +19,24 @@ struct Site {
   bool is_flake = false;  ///< else paint
 };
 
-/// Flakes are the cells of jittered sites (Worley 1996): a point belongs to the site that is nearest to it.
-class Flakes {
+/// Flakes are the cells of jittered sites (Worley 1996): a point belongs to the site that is nearest to it. The paint
+/// between them has a relief of its own, "orange peel": waves of two widths.
+class Paint {
  public:
-  explicit Flakes(const SurfaceSettings& settings)
-      : count_(static_cast<int>(settings.parameters.number("flakes"))), sites_(count_, count_) {
+  explicit Paint(const SurfaceSettings& settings)
+      : parameters_(settings.parameters), peel_random_(settings.seed + (std::uint64_t{1} << 32U)) {
     std::mt19937_64 random(settings.seed);
-    const double coverage = settings.parameters.number("coverage");
-    const double tilt = settings.parameters.number("flake_tilt");
+    const double coverage = parameters_.number("coverage"), tilt = parameters_.number("flake_tilt");
     for (Site& site : sites_) site = drawn(random, coverage, tilt);
   }
 
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    const Site& site = at(uv);
+    return normal_of_slope(site.is_flake ? glm::dvec2(site.slope) : slope_of(peel_.relief(HeightPoint{uv})));
+  }
+  [[nodiscard]] double alpha(const glm::dvec2& uv) const { return at(uv).is_flake ? flake_alpha_ : base_alpha_; }
+
+ private:
   [[nodiscard]] const Site& at(const glm::dvec2& uv) const {
     const glm::dvec2 point = uv * static_cast<double>(count_);
     const glm::ivec2 own = glm::ivec2(glm::floor(point));
@@ -50,7 +57,6 @@ class Flakes {
     return *nearest;
   }
 
- private:
   /// Slopes of a Beckmann distribution of width `tilt`: Gaussian ones of variance tilt^2 / 2 along each axis.
   static Site drawn(std::mt19937_64& random, double coverage, double tilt) {
     Site site;
@@ -63,34 +69,14 @@ class Flakes {
     return site;
   }
 
-  int count_;
-  WrappedGrid<Site> sites_;
+  const Options& parameters_;
+  int count_ = static_cast<int>(parameters_.number("flakes"));
+  double flake_alpha_ = parameters_.number("flake_alpha"), base_alpha_ = parameters_.number("base_alpha");
+  double peel_slope_ = parameters_.number("peel");
+  std::mt19937_64 peel_random_;
+  OctaveNoise peel_{std::array<Octave, 2>{{{12, peel_slope_}, {40, peel_slope_}}}, peel_random_};
+  WrappedGrid<Site> sites_{count_, count_};
 };
-
-/// The paint's own relief, "orange peel": waves of two widths.
-OctaveNoise peel_of(const SurfaceSettings& settings) {
-  const double slope = settings.parameters.number("peel");
-  const std::array<Octave, 2> octaves{{{12, slope}, {40, slope}}};
-  std::mt19937_64 random(settings.seed + (std::uint64_t{1} << 32U));
-  return OctaveNoise(octaves, random);
-}
-
-Image normals(const SurfaceSettings& settings) {
-  const Flakes flakes(settings);
-  const OctaveNoise peel = peel_of(settings);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    const Site& site = flakes.at(uv);
-    if (site.is_flake) return normal_of_slope(glm::dvec2(site.slope));
-    return normal_of_slope(slope_of(peel.relief(HeightPoint{uv})));
-  });
-}
-
-Image alphas(const SurfaceSettings& settings) {
-  const Flakes flakes(settings);
-  const double flake = settings.parameters.number("flake_alpha"), base = settings.parameters.number("base_alpha");
-  return fill_values(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& uv) { return flakes.at(uv).is_flake ? flake : base; });
-}
 
 }  // namespace
 
@@ -104,8 +90,8 @@ Surface surface() {
                          number_option("base_alpha", 0.2, 1e-3, 1, "alpha of the lobe of the paint between flakes"),
                          number_option("peel", 0.01, 0, 1, "slope of the paint's waves, about")},
           .default_resolution = 4096,
-          .normals = normals,
-          .lobe_parameter = alphas,
+          .normals = map_of<4, &Paint::normal>,
+          .lobe_parameter = map_of<1, &Paint::alpha>,
           .distribution = NormalDistribution::beckmann,
           .mesh = square_mesh};
 }

@@ -47,7 +47,9 @@ Height beads(const Polar& at, double ring, double bead, int count, double shift 
 /// Random differences between petals, tongues and strokes, as a carver's hand leaves them.
 class Hand {
  public:
-  Hand(std::uint32_t seed, double unevenness) : Hand(std::mt19937_64(seed), unevenness) {}
+  Hand(std::uint32_t seed, double unevenness) : unevenness_(unevenness), random_(seed) {
+    for (double& pressure : pressures_) pressure = 1.0 + unevenness * (2.0 * uniform(random_) - 1.0);
+  }
 
   /// Within 1 - unevenness to 1 + unevenness.
   [[nodiscard]] double pressure(std::size_t stroke) const { return pressures_[stroke % pressures_.size()]; }
@@ -59,12 +61,9 @@ class Hand {
   }
 
  private:
-  Hand(std::mt19937_64 random, double unevenness) : unevenness_(unevenness), coarse_(64, random), fine_(64, random) {
-    for (double& pressure : pressures_) pressure = 1.0 + unevenness * (2.0 * uniform(random) - 1.0);
-  }
-
   double unevenness_;
-  PeriodicNoise coarse_, fine_;
+  std::mt19937_64 random_;
+  PeriodicNoise coarse_{64, random_}, fine_{64, random_};
   std::array<double, 64> pressures_{};
 };
 

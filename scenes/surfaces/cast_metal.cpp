@@ -17,48 +17,35 @@ constexpr std::array<Octave, 4> stains{{{3, 0.9}, {7, 0.6}, {19, 0.45}, {60, 0.3
 constexpr glm::ivec2 stain_size{671, 457};
 constexpr int grain_size = 2048;
 
-glm::ivec2 stain_size_of(const SurfaceSettings& settings) {
-  const double share = static_cast<double>(settings.resolution) / grain_size;
-  return glm::max(glm::ivec2(glm::round(share * glm::dvec2(stain_size))), glm::ivec2{1});
-}
-
 Image normals(const SurfaceSettings& settings) { return relief_normals(settings, grain); }
 
-/// The patina at a point of the map of stains: 0 bare and polished, 1 crusted.
+/// The patina at a point of the map of stains.
 class Patina {
  public:
-  explicit Patina(const SurfaceSettings& settings)
-      : Patina(std::mt19937_64(settings.seed + (std::uint64_t{1} << 32U))) {}
+  explicit Patina(const SurfaceSettings& settings) : random_(settings.seed + (std::uint64_t{1} << 32U)) {}
 
-  [[nodiscard]] double at(const glm::dvec2& uv) const { return glm::smoothstep(-0.25, 0.35, noise_.value(uv)); }
+  [[nodiscard]] static glm::ivec2 size_of(const SurfaceSettings& settings) {
+    const double share = static_cast<double>(settings.resolution) / grain_size;
+    return glm::max(glm::ivec2(glm::round(share * glm::dvec2(stain_size))), glm::ivec2{1});
+  }
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    return glm::mix(glm::dvec3{0.10, 0.05, 0.02}, glm::dvec3{0.10, 0.24, 0.18}, crust(uv));
+  }
+  [[nodiscard]] glm::dvec3 specular(const glm::dvec2& uv) const {
+    return glm::mix(glm::dvec3{0.72, 0.46, 0.22}, glm::dvec3{0.05, 0.06, 0.05}, crust(uv));
+  }
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const {
+    constexpr double bright = 400.0, crusted = 8.0;
+    return bright * std::pow(crusted / bright, crust(uv));
+  }
 
  private:
-  explicit Patina(std::mt19937_64 random) : noise_(stains, random) {}
+  /// 0 bare and polished, 1 crusted.
+  [[nodiscard]] double crust(const glm::dvec2& uv) const { return glm::smoothstep(-0.25, 0.35, noise_.value(uv)); }
 
-  OctaveNoise noise_;
+  std::mt19937_64 random_;
+  OctaveNoise noise_{stains, random_};
 };
-
-Image base_color(const SurfaceSettings& settings) {
-  const Patina patina(settings);
-  return fill_colors(stain_size_of(settings), [&](const glm::dvec2& uv) {
-    return glm::mix(glm::dvec3{0.10, 0.05, 0.02}, glm::dvec3{0.10, 0.24, 0.18}, patina.at(uv));
-  });
-}
-
-Image specular(const SurfaceSettings& settings) {
-  const Patina patina(settings);
-  return fill_rgb(stain_size_of(settings), [&](const glm::dvec2& uv) {
-    return glm::mix(glm::dvec3{0.72, 0.46, 0.22}, glm::dvec3{0.05, 0.06, 0.05}, patina.at(uv));
-  });
-}
-
-Image exponents(const SurfaceSettings& settings) {
-  const Patina patina(settings);
-  return fill_values(stain_size_of(settings), [&](const glm::dvec2& uv) {
-    constexpr double bright = 400.0, crusted = 8.0;
-    return bright * std::pow(crusted / bright, patina.at(uv));
-  });
-}
 
 glm::vec2 stain_tiling(const SurfaceSettings& settings) {
   const auto repeats = static_cast<float>(settings.parameters.number("stain_repeats"));
@@ -76,9 +63,9 @@ Surface surface() {
                                       "how often the map of stains repeats along the map's width")},
           .default_resolution = grain_size,
           .normals = normals,
-          .base_color = base_color,
-          .specular = specular,
-          .lobe_parameter = exponents,
+          .base_color = map_of<4, &Patina::color>,
+          .specular = map_of<3, &Patina::specular>,
+          .lobe_parameter = map_of<1, &Patina::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .map_tiling = stain_tiling,
           .mesh = square_mesh};

@@ -5,40 +5,27 @@
 namespace footprint::surfaces::checker {
 namespace {
 
-/// Whether a point is on a glossy square; the others are dull.
-class Board {
- public:
-  explicit Board(const SurfaceSettings& settings) : squares_(settings.parameters.number("squares")) {}
+/// Glossy and dull squares.
+struct Board {
+  explicit Board(const SurfaceSettings& settings)
+      : squares(settings.parameters.number("squares")),
+        glossy(settings.parameters.number("glossy")),
+        dull(settings.parameters.number("dull")) {}
 
   [[nodiscard]] bool is_glossy(const glm::dvec2& uv) const {
-    const glm::ivec2 square = glm::ivec2(glm::floor(squares_ * uv));
+    const glm::ivec2 square = glm::ivec2(glm::floor(squares * uv));
     return (square.x + square.y) % 2 == 0;
   }
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    return is_glossy(uv) ? glm::dvec3{0.02, 0.03, 0.06} : glm::dvec3{0.34, 0.20, 0.10};
+  }
+  [[nodiscard]] glm::dvec3 specular(const glm::dvec2& uv) const {
+    return is_glossy(uv) ? glm::dvec3{0.5, 0.52, 0.56} : glm::dvec3{0.3, 0.24, 0.18};
+  }
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const { return is_glossy(uv) ? glossy : dull; }
 
- private:
-  double squares_;
+  double squares, glossy, dull;
 };
-
-Image base_color(const SurfaceSettings& settings) {
-  const Board board(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    return board.is_glossy(uv) ? glm::dvec3{0.02, 0.03, 0.06} : glm::dvec3{0.34, 0.20, 0.10};
-  });
-}
-
-Image specular(const SurfaceSettings& settings) {
-  const Board board(settings);
-  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    return board.is_glossy(uv) ? glm::dvec3{0.5, 0.52, 0.56} : glm::dvec3{0.3, 0.24, 0.18};
-  });
-}
-
-Image exponents(const SurfaceSettings& settings) {
-  const Board board(settings);
-  const double glossy = settings.parameters.number("glossy"), dull = settings.parameters.number("dull");
-  return fill_values(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& uv) { return board.is_glossy(uv) ? glossy : dull; });
-}
 
 }  // namespace
 
@@ -50,9 +37,9 @@ Surface surface() {
                          number_option("dull", 8.0, 1, 1e6, "exponent of the other's")},
           .default_resolution = 512,
           .normals = flat_normals,
-          .base_color = base_color,
-          .specular = specular,
-          .lobe_parameter = exponents,
+          .base_color = map_of<4, &Board::color>,
+          .specular = map_of<3, &Board::specular>,
+          .lobe_parameter = map_of<1, &Board::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .mesh = square_mesh};
 }

@@ -237,7 +237,7 @@ constexpr int squares = 8;
 constexpr double square = 0.057, frame = 0.024, inlay = 0.0015, thickness = 0.02;
 
 Image base_color(const SurfaceSettings& settings) {
-  return fill_colors(glm::ivec2{settings.resolution}, [](const glm::dvec2& uv) {
+  return fill_map(glm::ivec2{settings.resolution}, 4, [](const glm::dvec2& uv) {
     const glm::ivec2 at = glm::ivec2(glm::floor(static_cast<double>(squares) * uv));
     return (at.x + at.y) % 2 == 0 ? glm::dvec3{0.09, 0.035, 0.016} : glm::dvec3{0.55, 0.37, 0.20};
   });

@@ -46,8 +46,8 @@ class MapNoise {
 /// All that varies over the map.
 class Sand {
  public:
-  explicit Sand(std::uint32_t seed) {
-    std::mt19937_64 random(seed);
+  explicit Sand(const SurfaceSettings& settings) : steepness_(settings.parameters.number("steepness")) {
+    std::mt19937_64 random(settings.seed);
     for (const Ripples& train : trains) {
       bends_.emplace_back(train.bend_cells, random);
       strengths_.emplace_back(train.strength_cells, random);
@@ -55,6 +55,19 @@ class Sand {
     for (const Grains& octave : grains) grains_.emplace_back(octave.cells, random);
   }
 
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    return normal_of_slope(steepness_ * slope_of(height(HeightPoint{uv})));
+  }
+
+  /// Heavy dark grains stay in the ripples' troughs.
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    constexpr glm::dvec3 light{0.62, 0.40, 0.21}, dark{0.50, 0.30, 0.145};
+    const HeightPoint at{uv};
+    const double darkness = 0.5 - 0.3 * ripples(at, 0).value() + 0.4 * grains_.front().at(at).value();
+    return glm::mix(light, dark, glm::clamp(darkness, 0.0, 1.0));
+  }
+
+ private:
   /// The height at a point, in map widths.
   [[nodiscard]] Height height(const HeightPoint& at) const {
     Height sum{0.0};
@@ -63,13 +76,6 @@ class Sand {
     return sum;
   }
 
-  /// 0 for the lightest sand to 1 for the darkest: heavy dark grains stay in the ripples' troughs.
-  [[nodiscard]] double darkness(const HeightPoint& at) const {
-    const double darkness = 0.5 - 0.3 * ripples(at, 0).value() + 0.4 * grains_.front().at(at).value();
-    return glm::clamp(darkness, 0.0, 1.0);
-  }
-
- private:
   /// A train's height, -1 to 1: waves that lean with the wind, which comes from -x, each train strong in places only.
   [[nodiscard]] Height ripples(const HeightPoint& at, std::size_t train) const {
     const Ripples& kind = trains[train];
@@ -78,28 +84,14 @@ class Sand {
     return sin(phase + 0.45 * sin(phase)) * strength;
   }
 
+  double steepness_;
   std::vector<MapNoise> bends_, strengths_, grains_;
 };
-
-Image normals(const SurfaceSettings& settings) {
-  const Sand sand(settings.seed);
-  const double steepness = settings.parameters.number("steepness");
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    return normal_of_slope(steepness * slope_of(sand.height(HeightPoint{uv})));
-  });
-}
-
-Image base_color(const SurfaceSettings& settings) {
-  const Sand sand(settings.seed);
-  constexpr glm::dvec3 light{0.62, 0.40, 0.21}, dark{0.50, 0.30, 0.145};
-  return fill_colors(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& uv) { return glm::mix(light, dark, sand.darkness(HeightPoint{uv})); });
-}
 
 /// The dunes' height over a point, both in sides of the terrain.
 class Dunes {
  public:
-  explicit Dunes(std::uint32_t seed) : Dunes(std::mt19937_64(seed)) {}
+  explicit Dunes(std::uint32_t seed) : random_(seed) {}
 
   [[nodiscard]] Height at(const HeightPoint& at) const {
     const Height wander = 0.55 * warp_.at(4.0 * at.x, 4.0 * at.y) + 0.16 * warp_.at(10.0 * at.x, 10.0 * at.y);
@@ -110,8 +102,6 @@ class Dunes {
   }
 
  private:
-  explicit Dunes(std::mt19937_64 random) : warp_(10, random), size_(4, random) {}
-
   /// One dune a period: a long windward side from a flat foot up to the crest, then the short, steep lee side. The
   /// crest is where the lower of the two takes over, rounded so that the mesh can follow it.
   [[nodiscard]] static Height crest(const Height& phase) {
@@ -122,7 +112,8 @@ class Dunes {
     return log(exp(-sharpness * windward) + exp(-sharpness * lee)) / -sharpness;
   }
 
-  PeriodicNoise warp_, size_;
+  std::mt19937_64 random_;
+  PeriodicNoise warp_{10, random_}, size_{4, random_};
 };
 
 Mesh mesh(const SurfaceSettings& settings) {
@@ -150,8 +141,8 @@ Surface surface() {
           .summary = "dunes under wind ripples of several widths, down to grains",
           .parameters = {number_option("steepness", 1.0, 0, 10, "factor on the slopes of ripples and grains")},
           .default_resolution = 1024,
-          .normals = normals,
-          .base_color = base_color,
+          .normals = map_of<4, &Sand::normal>,
+          .base_color = map_of<4, &Sand::color>,
           .mesh = mesh};
 }
 

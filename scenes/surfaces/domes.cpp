@@ -19,23 +19,51 @@ namespace {
 struct DomePart {
   glm::dvec2 offset;  ///< from the dome's middle, as a share of its radius; shorter than 1
   double chance;      ///< random number of this dome, uniform in 0 to 1
-
-  /// The unit normal there: as of a sphere whose tilt at the dome's edge has the sine `edge`, 1 a hemisphere.
-  [[nodiscard]] glm::dvec3 normal(double edge) const {
-    const glm::dvec2 tilt = edge * offset;
-    return glm::dvec3{tilt, std::sqrt(1.0 - glm::dot(tilt, tilt))};
-  }
 };
 
 /// Rows of domes over the unit square, each odd row moved by half a column.
 class DomeLattice {
  public:
-  /// The number of rows is even, so that the map tiles, and makes the lattice nearly hexagonal. `fill`: radius of the
-  /// largest dome as a share of that of touching ones; `variation`: how much smaller the smallest is.
-  DomeLattice(int columns, double fill, double variation, std::uint32_t seed);
+  /// The number of rows is even, so that the map tiles, and makes the lattice nearly hexagonal. `variation`: how much
+  /// smaller than the largest the smallest dome is. Parameters: `count` of columns; `fill`, the radius of the largest
+  /// dome as a share of that of touching ones; `edge_degrees`, the tilt at a dome's edge.
+  DomeLattice(const SurfaceSettings& settings, double variation)
+      : edge_(std::sin(glm::radians(settings.parameters.number("edge_degrees")))),
+        columns_(static_cast<int>(settings.parameters.number("count"))) {
+    const double across = 1.0 / domes_.columns(), up = 1.0 / domes_.rows();
+    const double room = 0.5 * std::min({across, std::hypot(0.5 * across, up), 2.0 * up});  // radius of touching discs
+    const double largest = settings.parameters.number("fill") * room;
+    std::mt19937_64 random(settings.seed);
+    for (Dome& dome : domes_) {
+      dome.radius = largest * (1.0 - variation * uniform(random));
+      const double angle = 2.0 * std::numbers::pi * uniform(random);
+      dome.offset = (room - dome.radius) * uniform(random) * glm::dvec2{std::cos(angle), std::sin(angle)};
+    }
+    for (Dome& dome : domes_) dome.chance = uniform(random);
+  }
+
+  /// As of spheres; a tilt of 90 degrees at their edges makes them hemispheres.
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    const auto dome = at(uv);
+    if (!dome) return {0.0, 0.0, 1.0};
+    const glm::dvec2 tilt = edge_ * dome->offset;
+    return glm::dvec3{tilt, std::sqrt(1.0 - glm::dot(tilt, tilt))};
+  }
 
   /// The dome that covers `uv`, if any.
-  [[nodiscard]] std::optional<DomePart> at(const glm::dvec2& uv) const;
+  [[nodiscard]] std::optional<DomePart> at(const glm::dvec2& uv) const {
+    const int row = static_cast<int>(uv.y * domes_.rows()), column = static_cast<int>(uv.x * domes_.columns());
+    for (int y = row - 1; y <= row + 1; ++y) {
+      for (int x = column - 1; x <= column + 1; ++x) {
+        const Dome& dome = domes_.at(x, y);
+        const double shift = y % 2 == 0 ? 0.25 : 0.75;  // of a column
+        const glm::dvec2 centre{(x + shift) / domes_.columns(), (y + 0.5) / domes_.rows()};
+        const glm::dvec2 offset = (uv - centre - dome.offset) / dome.radius;
+        if (glm::dot(offset, offset) < 1.0) return DomePart{offset, dome.chance};
+      }
+    }
+    return std::nullopt;
+  }
 
  private:
   struct Dome {
@@ -43,57 +71,24 @@ class DomeLattice {
     double radius = 0.0;
     double chance = 0.0;
   };
-  WrappedGrid<Dome> domes_;
+
+  double edge_;
+  int columns_;
+  WrappedGrid<Dome> domes_{columns_, 2 * std::max(1, static_cast<int>(std::lround(columns_ / std::numbers::sqrt3)))};
 };
-
-DomeLattice::DomeLattice(int columns, double fill, double variation, std::uint32_t seed)
-    : domes_(columns, 2 * std::max(1, static_cast<int>(std::lround(columns / std::numbers::sqrt3)))) {
-  const double across = 1.0 / domes_.columns(), up = 1.0 / domes_.rows();
-  const double room = 0.5 * std::min({across, std::hypot(0.5 * across, up), 2.0 * up});  // radius of touching discs
-  std::mt19937_64 random(seed);
-  for (Dome& dome : domes_) {
-    dome.radius = fill * room * (1.0 - variation * uniform(random));
-    const double angle = 2.0 * std::numbers::pi * uniform(random);
-    dome.offset = (room - dome.radius) * uniform(random) * glm::dvec2{std::cos(angle), std::sin(angle)};
-  }
-  for (Dome& dome : domes_) dome.chance = uniform(random);
-}
-
-std::optional<DomePart> DomeLattice::at(const glm::dvec2& uv) const {
-  const int row = static_cast<int>(uv.y * domes_.rows()), column = static_cast<int>(uv.x * domes_.columns());
-  for (int y = row - 1; y <= row + 1; ++y) {
-    for (int x = column - 1; x <= column + 1; ++x) {
-      const Dome& dome = domes_.at(x, y);
-      const double shift = y % 2 == 0 ? 0.25 : 0.75;  // of a column
-      const glm::dvec2 centre{(x + shift) / domes_.columns(), (y + 0.5) / domes_.rows()};
-      const glm::dvec2 offset = (uv - centre - dome.offset) / dome.radius;
-      if (glm::dot(offset, offset) < 1.0) return DomePart{offset, dome.chance};
-    }
-  }
-  return std::nullopt;
-}
-
-DomeLattice lattice_of(const SurfaceSettings& settings, double variation) {
-  const Options& parameters = settings.parameters;
-  return {static_cast<int>(parameters.number("count")), parameters.number("fill"), variation, settings.seed};
-}
-
-Image dome_normals(const SurfaceSettings& settings, const DomeLattice& lattice) {
-  const double edge = std::sin(glm::radians(settings.parameters.number("edge_degrees")));
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    const auto dome = lattice.at(uv);
-    return dome ? dome->normal(edge) : glm::dvec3{0.0, 0.0, 1.0};
-  });
-}
 
 }  // namespace
 
 namespace surfaces::scales {
 namespace {
 
-Image normals(const SurfaceSettings& settings) {
-  return dome_normals(settings, lattice_of(settings, settings.parameters.number("variation")));
-}
+struct Scales {
+  explicit Scales(const SurfaceSettings& settings) : domes(settings, settings.parameters.number("variation")) {}
+
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const { return domes.normal(uv); }
+
+  DomeLattice domes;
+};
 
 }  // namespace
 
@@ -107,7 +102,7 @@ Surface surface() {
                      number_option("variation", 0.2, 0, 0.9,
                                    "how much smaller than the largest the smallest scale is, as a share of it"),
                      number_option("edge_degrees", 90.0, 0, 90, "tilt at a scale's edge, degrees; 90: hemispheres")},
-      .normals = normals,
+      .normals = map_of<4, &Scales::normal>,
       .mesh = square_mesh};
 }
 
@@ -128,36 +123,26 @@ constexpr Stuff gold{{0.16, 0.09, 0.02}, {0.72, 0.48, 0.16}, 0.0}, steel{{0.05, 
 /// Exponents of the dullest and the most polished stud.
 constexpr double dullest = 24.0, glossiest = 600.0;
 
-DomeLattice studs(const SurfaceSettings& settings) { return lattice_of(settings, 0.15); }
+struct Studs {
+  explicit Studs(const SurfaceSettings& settings) : domes(settings, 0.15) {}
 
-Stuff stuff_at(const DomeLattice& lattice, const glm::dvec2& uv) {
-  const auto dome = lattice.at(uv);
-  if (!dome) return ground;
-  Stuff stuff = dome->chance < 0.5 ? gold : steel;
-  const double polish = 2.0 * dome->chance - std::floor(2.0 * dome->chance);
-  stuff.exponent = dullest * std::pow(glossiest / dullest, polish);
-  return stuff;
-}
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const { return domes.normal(uv); }
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const { return stuff(uv).albedo; }
+  [[nodiscard]] glm::dvec3 specular(const glm::dvec2& uv) const { return stuff(uv).specular; }
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const { return stuff(uv).exponent; }
 
-Image normals(const SurfaceSettings& settings) { return dome_normals(settings, studs(settings)); }
+ private:
+  [[nodiscard]] Stuff stuff(const glm::dvec2& uv) const {
+    const auto dome = domes.at(uv);
+    if (!dome) return ground;
+    Stuff stuff = dome->chance < 0.5 ? gold : steel;
+    const double polish = 2.0 * dome->chance - std::floor(2.0 * dome->chance);
+    stuff.exponent = dullest * std::pow(glossiest / dullest, polish);
+    return stuff;
+  }
 
-Image base_color(const SurfaceSettings& settings) {
-  const DomeLattice lattice = studs(settings);
-  return fill_colors(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).albedo; });
-}
-
-Image specular(const SurfaceSettings& settings) {
-  const DomeLattice lattice = studs(settings);
-  return fill_rgb(glm::ivec2{settings.resolution},
-                  [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).specular; });
-}
-
-Image exponents(const SurfaceSettings& settings) {
-  const DomeLattice lattice = studs(settings);
-  return fill_values(glm::ivec2{settings.resolution},
-                     [&](const glm::dvec2& uv) { return stuff_at(lattice, uv).exponent; });
-}
+  DomeLattice domes;
+};
 
 }  // namespace
 
@@ -169,10 +154,10 @@ Surface surface() {
                                        "radius of the largest stud as a share of that of touching ones"),
                          number_option("edge_degrees", 90.0, 0, 90, "tilt at a stud's edge, degrees; 90: hemispheres")},
           .default_resolution = 1024,
-          .normals = normals,
-          .base_color = base_color,
-          .specular = specular,
-          .lobe_parameter = exponents,
+          .normals = map_of<4, &Studs::normal>,
+          .base_color = map_of<4, &Studs::color>,
+          .specular = map_of<3, &Studs::specular>,
+          .lobe_parameter = map_of<1, &Studs::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .mesh = square_mesh};
 }

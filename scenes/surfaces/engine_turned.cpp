@@ -72,11 +72,6 @@ class EngineTurning {
   WrappedGrid<Disc> discs_;
 };
 
-Image normals(const SurfaceSettings& settings) {
-  const EngineTurning turning(settings);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) { return turning.normal(uv); });
-}
-
 }  // namespace
 
 Surface surface() {
@@ -86,7 +81,7 @@ Surface surface() {
                          whole_option("scratches", 14, 1, 64, "scratches of a disc"),
                          number_option("tilt_degrees", 16.0, 0, 80, "tilt of the steepest scratch's flanks, degrees")},
           .default_resolution = 2048,
-          .normals = normals,
+          .normals = map_of<4, &EngineTurning::normal>,
           .mesh = square_mesh};
 }
 

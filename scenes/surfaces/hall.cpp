@@ -62,8 +62,22 @@ constexpr std::array<Octave, 3> stains{{{3, 0.6}, {11, 0.4}, {45, 0.3}}};
 
 class Ashlar {
  public:
-  explicit Ashlar(std::uint32_t seed) : Ashlar(std::mt19937_64(seed)) {}
+  explicit Ashlar(const SurfaceSettings& settings) : random_(settings.seed) {
+    for (double& tone : tones_) tone = 2.0 * uniform(random_) - 1.0;
+  }
 
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    return normal_of_slope(slope_of(height(HeightPoint{uv})));
+  }
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    const glm::dvec3 stone = glm::dvec3{0.50, 0.41, 0.30} * (1.0 + 0.22 * tone(uv));
+    return glm::clamp(is_joint(uv) ? 0.55 * stone : stone, 0.0, 1.0);
+  }
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const {
+    return is_joint(uv) ? 4.0 : 14.0 * std::exp2(glm::clamp(tone(uv), -2.0, 2.0));
+  }
+
+ private:
   /// The height, in map widths: blocks stand out of their joints with rounded edges.
   [[nodiscard]] Height height(const HeightPoint& at) const {
     const Height row = static_cast<double>(courses) * at.y, column = static_cast<double>(blocks) * at.x + shift(row);
@@ -86,12 +100,6 @@ class Ashlar {
     return 0.6 * tones_.at(column, row) + stains_.value(uv);
   }
 
- private:
-  explicit Ashlar(std::mt19937_64 random)
-      : weathering_(weathering, random), stains_(stains, random), tones_(blocks, courses) {
-    for (double& tone : tones_) tone = 2.0 * uniform(random) - 1.0;
-  }
-
   static double shift(const Height& row) { return wrap(static_cast<int>(std::floor(row.value())), 2) == 0 ? 0.0 : 0.5; }
 
   /// The distance to the nearest whole number.
@@ -100,30 +108,10 @@ class Ashlar {
     return offset.value() < 0.0 ? Height(-offset) : offset;
   }
 
-  OctaveNoise weathering_, stains_;
-  WrappedGrid<double> tones_;
+  std::mt19937_64 random_;
+  OctaveNoise weathering_{weathering, random_}, stains_{stains, random_};
+  WrappedGrid<double> tones_{blocks, courses};
 };
-
-Image normals(const SurfaceSettings& settings) {
-  const Ashlar ashlar(settings.seed);
-  return fill_normals(settings.resolution,
-                      [&](const glm::dvec2& uv) { return normal_of_slope(slope_of(ashlar.height(HeightPoint{uv}))); });
-}
-
-Image base_color(const SurfaceSettings& settings) {
-  const Ashlar ashlar(settings.seed);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    const glm::dvec3 stone = glm::dvec3{0.50, 0.41, 0.30} * (1.0 + 0.22 * ashlar.tone(uv));
-    return glm::clamp(ashlar.is_joint(uv) ? 0.55 * stone : stone, 0.0, 1.0);
-  });
-}
-
-Image exponents(const SurfaceSettings& settings) {
-  const Ashlar ashlar(settings.seed);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    return ashlar.is_joint(uv) ? 4.0 : 14.0 * std::exp2(glm::clamp(ashlar.tone(uv), -2.0, 2.0));
-  });
-}
 
 /// A column's radius at a height: moulded base, tapering shaft with a ring, flaring capital.
 Height column_radius(const Height& y) {
@@ -215,9 +203,9 @@ Surface surface() {
           .summary = "walls, columns, arches and vault of a hall, of weathered ashlar",
           .parameters = {},
           .default_resolution = 1024,
-          .normals = normals,
-          .base_color = base_color,
-          .lobe_parameter = exponents,
+          .normals = map_of<4, &Ashlar::normal>,
+          .base_color = map_of<4, &Ashlar::color>,
+          .lobe_parameter = map_of<1, &Ashlar::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .mesh = mesh};
 }
@@ -237,7 +225,15 @@ constexpr double joint = 0.012;
 constexpr std::array<Octave, 3> waviness{{{20, 0.006}, {80, 0.012}, {330, 0.02}}};
 constexpr std::array<Octave, 4> veins{{{4, 1.0}, {11, 0.5}, {31, 0.25}, {90, 0.12}}};
 
-enum class Stone { black, white, red, cement };
+struct Stone {
+  glm::dvec3 color, vein_color;
+  double exponent;
+};
+
+constexpr Stone black{{0.025, 0.027, 0.03}, {0.30, 0.30, 0.28}, 900.0};
+constexpr Stone white{{0.62, 0.58, 0.50}, {0.34, 0.32, 0.30}, 70.0};
+constexpr Stone red{{0.30, 0.055, 0.035}, {0.55, 0.33, 0.28}, 300.0};
+constexpr Stone cement{{0.30, 0.28, 0.25}, {0.30, 0.28, 0.25}, 5.0};
 
 /// The stone at a point, and the tilt of its square.
 struct Slab {
@@ -247,66 +243,38 @@ struct Slab {
 
 class Paving {
  public:
-  Paving(std::uint32_t seed, double tilt) : Paving(std::mt19937_64(seed), tilt) {}
+  explicit Paving(const SurfaceSettings& settings) : random_(settings.seed) {
+    const double tilt = std::tan(glm::radians(settings.parameters.number("tilt_degrees")));
+    for (glm::dvec2& slope : slopes_) slope = tilt * (2.0 * glm::dvec2{uniform(random_), uniform(random_)} - 1.0);
+  }
 
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    return normal_of_slope(at(uv).slope + slope_of(waviness_.relief(HeightPoint{uv})));
+  }
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    const Stone stone = at(uv).stone;
+    const double vein = std::pow(1.0 - std::min(1.0, 4.0 * std::abs(veins_.value(uv))), 3.0);
+    return glm::mix(stone.color, stone.vein_color, vein);
+  }
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const { return at(uv).stone.exponent; }
+
+ private:
   [[nodiscard]] Slab at(const glm::dvec2& uv) const {
     const glm::dvec2 cell = static_cast<double>(squares) * uv;
     const int column = static_cast<int>(std::floor(cell.x)), row = static_cast<int>(std::floor(cell.y));
     const glm::dvec2 offset = glm::abs(cell - glm::dvec2(column, row) - 0.5);  // from the middle
     const double out = std::max(offset.x, offset.y), lozenge = offset.x + offset.y;
     const bool dark = wrap(column + row, 2) == 0;
-    Slab slab{dark ? Stone::black : Stone::white, slopes_.at(column, row)};
-    if (dark && lozenge < 0.34) slab.stone = Stone::red;
-    if (out > 0.5 - joint || (dark && std::abs(lozenge - 0.34) < joint)) slab = {Stone::cement, glm::dvec2{0.0}};
+    Slab slab{dark ? black : white, slopes_.at(column, row)};
+    if (dark && lozenge < 0.34) slab.stone = red;
+    if (out > 0.5 - joint || (dark && std::abs(lozenge - 0.34) < joint)) slab = {cement, glm::dvec2{0.0}};
     return slab;
   }
 
-  [[nodiscard]] glm::dvec2 waves(const glm::dvec2& uv) const { return slope_of(waviness_.relief(HeightPoint{uv})); }
-
-  /// 0 between the veins, to 1 along them.
-  [[nodiscard]] double vein(const glm::dvec2& uv) const {
-    return std::pow(1.0 - std::min(1.0, 4.0 * std::abs(veins_.value(uv))), 3.0);
-  }
-
- private:
-  Paving(std::mt19937_64 random, double tilt)
-      : waviness_(waviness, random), veins_(veins, random), slopes_(squares, squares) {
-    for (glm::dvec2& slope : slopes_) slope = tilt * (2.0 * glm::dvec2{uniform(random), uniform(random)} - 1.0);
-  }
-
-  OctaveNoise waviness_, veins_;
-  WrappedGrid<glm::dvec2> slopes_;
+  std::mt19937_64 random_;
+  OctaveNoise waviness_{waviness, random_}, veins_{veins, random_};
+  WrappedGrid<glm::dvec2> slopes_{squares, squares};
 };
-
-Paving paving(const SurfaceSettings& settings) {
-  return {settings.seed, std::tan(glm::radians(settings.parameters.number("tilt_degrees")))};
-}
-
-Image normals(const SurfaceSettings& settings) {
-  const Paving floor = paving(settings);
-  return fill_normals(settings.resolution,
-                      [&](const glm::dvec2& uv) { return normal_of_slope(floor.at(uv).slope + floor.waves(uv)); });
-}
-
-Image base_color(const SurfaceSettings& settings) {
-  const Paving floor = paving(settings);
-  return fill_colors(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    static constexpr std::array<glm::dvec3, 4> colors{
-        {{0.025, 0.027, 0.03}, {0.62, 0.58, 0.50}, {0.30, 0.055, 0.035}, {0.30, 0.28, 0.25}}};
-    static constexpr std::array<glm::dvec3, 4> vein_colors{
-        {{0.30, 0.30, 0.28}, {0.34, 0.32, 0.30}, {0.55, 0.33, 0.28}, {0.30, 0.28, 0.25}}};
-    const auto stone = static_cast<std::size_t>(floor.at(uv).stone);
-    return glm::mix(colors.at(stone), vein_colors.at(stone), floor.vein(uv));
-  });
-}
-
-Image exponents(const SurfaceSettings& settings) {
-  const Paving floor = paving(settings);
-  return fill_values(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    static constexpr std::array<double, 4> polish{900.0, 70.0, 300.0, 5.0};
-    return polish.at(static_cast<std::size_t>(floor.at(uv).stone));
-  });
-}
 
 Mesh mesh(const SurfaceSettings& /*settings*/) {
   const hall::Wall ground{{-hall::outer_wall, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}};
@@ -324,9 +292,9 @@ Surface surface() {
           .summary = "the floor of a hall: squares of polished and honed marble with inlaid lozenges",
           .parameters = {number_option("tilt_degrees", 0.7, 0, 30, "largest tilt of a square along x and y, degrees")},
           .default_resolution = 2048,
-          .normals = normals,
-          .base_color = base_color,
-          .lobe_parameter = exponents,
+          .normals = map_of<4, &Paving::normal>,
+          .base_color = map_of<4, &Paving::color>,
+          .lobe_parameter = map_of<1, &Paving::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .mesh = mesh};
 }
@@ -348,21 +316,20 @@ std::size_t dye_of(const SurfaceSettings& settings) {
   return static_cast<std::size_t>(std::ranges::find(dyes, settings.parameters.word("dye")) - dyes.begin());
 }
 
-Jacquard cloth(const SurfaceSettings& settings) { return {glm::ivec2{200}, {4, 3}, settings.seed}; }
+struct Silk {
+  explicit Silk(const SurfaceSettings& settings)
+      : cloth(glm::ivec2{200}, {4, 3}, settings.seed), dye(dye_of(settings)) {}
 
-Image normals(const SurfaceSettings& settings) {
-  const Jacquard silk = cloth(settings);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) { return Jacquard::normal(silk.at(uv), 0.5); });
-}
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const { return Jacquard::normal(cloth.at(uv), 0.5); }
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    static constexpr std::array<glm::dvec3, 3> grounds{{{0.34, 0.015, 0.02}, {0.02, 0.16, 0.05}, {0.02, 0.05, 0.26}}};
+    return silk_color(cloth.at(uv), grounds.at(dye), {0.40, 0.25, 0.07}, 0.35);
+  }
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const { return silk_exponent(cloth.at(uv), 18.0, 120.0); }
 
-Image base_color(const SurfaceSettings& settings) {
-  static constexpr std::array<glm::dvec3, 3> grounds{{{0.34, 0.015, 0.02}, {0.02, 0.16, 0.05}, {0.02, 0.05, 0.26}}};
-  return silk_colors(cloth(settings), settings.resolution, grounds.at(dye_of(settings)), {0.40, 0.25, 0.07}, 0.35);
-}
-
-Image exponents(const SurfaceSettings& settings) {
-  return silk_exponents(cloth(settings), settings.resolution, 18.0, 120.0);
-}
+  Jacquard cloth;
+  std::size_t dye;
+};
 
 /// One curtain in its arch, seen from the nave; `side` -1 hangs on the left.
 Mesh curtain(double side, int index, const PeriodicNoise& noise) {
@@ -399,9 +366,9 @@ Surface surface() {
           .summary = "figured curtains in the arches of a hall, one of three colours that take turns",
           .parameters = {word_option("dye", dyes, "colour of the ground, and whose turn it is")},
           .default_resolution = 1024,
-          .normals = normals,
-          .base_color = base_color,
-          .lobe_parameter = exponents,
+          .normals = map_of<4, &Silk::normal>,
+          .base_color = map_of<4, &Silk::color>,
+          .lobe_parameter = map_of<1, &Silk::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .mesh = mesh};
 }

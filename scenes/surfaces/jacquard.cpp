@@ -74,20 +74,13 @@ glm::dvec3 Jacquard::normal(const Thread& thread, double roundness) {
   return glm::dvec3{tilt, std::sqrt(std::max(0.0, 1.0 - glm::dot(tilt, tilt)))};
 }
 
-Image silk_colors(const Jacquard& cloth, int resolution, const glm::dvec3& warp, const glm::dvec3& weft,
-                  double edge_shade) {
-  return fill_colors(glm::ivec2{resolution}, [&](const glm::dvec2& uv) {
-    const Thread thread = cloth.at(uv);
-    const double shade = (1.0 - edge_shade * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
-    return glm::min(shade * (thread.weft ? weft : warp), 1.0);
-  });
+glm::dvec3 silk_color(const Thread& thread, const glm::dvec3& warp, const glm::dvec3& weft, double edge_shade) {
+  const double shade = (1.0 - edge_shade * thread.across * thread.across) * (0.8 + 0.4 * thread.uneven);
+  return glm::min(shade * (thread.weft ? weft : warp), 1.0);
 }
 
-Image silk_exponents(const Jacquard& cloth, int resolution, double warp, double weft) {
-  return fill_values(glm::ivec2{resolution}, [&](const glm::dvec2& uv) {
-    const Thread thread = cloth.at(uv);
-    return (thread.weft ? weft : warp) * std::exp2(2.0 * thread.uneven - 1.0);
-  });
+double silk_exponent(const Thread& thread, double warp, double weft) {
+  return (thread.weft ? weft : warp) * std::exp2(2.0 * thread.uneven - 1.0);
 }
 
 }  // namespace footprint

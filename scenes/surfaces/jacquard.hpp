@@ -5,8 +5,6 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "renderer/image/image.hpp"
-
 namespace footprint {
 
 /// The thread on top at a point of the cloth.
@@ -35,12 +33,12 @@ class Jacquard {
   std::vector<double> warp_, weft_;  ///< Thread::uneven of each
 };
 
-/// The colours of a cloth's map: warp and weft, darker by `edge_shade` at a thread's edges, where it dives under its
+/// The colour of a thread: of the warp or the weft, darker by `edge_shade` at its edges, where it dives under its
 /// neighbours.
-[[nodiscard]] Image silk_colors(const Jacquard& cloth, int resolution, const glm::dvec3& warp, const glm::dvec3& weft,
-                                double edge_shade);
+[[nodiscard]] glm::dvec3 silk_color(const Thread& thread, const glm::dvec3& warp, const glm::dvec3& weft,
+                                    double edge_shade);
 
-/// Blinn-Phong exponents of a cloth's map: each thread has up to twice or half that of its kind.
-[[nodiscard]] Image silk_exponents(const Jacquard& cloth, int resolution, double warp, double weft);
+/// The Blinn-Phong exponent of a thread: up to twice or half that of its kind.
+[[nodiscard]] double silk_exponent(const Thread& thread, double warp, double weft);
 
 }  // namespace footprint

@@ -17,30 +17,26 @@ constexpr double half_width = 0.30, half_height = 0.15, half_thickness = 0.085;
 constexpr glm::dvec3 warp_color{0.30, 0.012, 0.035}, weft_color{0.42, 0.25, 0.06};
 
 /// The map's halves are twice as wide as high: as many threads per metre each way.
-Jacquard cloth(const SurfaceSettings& settings) {
-  return {glm::ivec2{static_cast<int>(settings.parameters.number("threads"))}, {5, 4}, settings.seed};
-}
+struct Silk {
+  explicit Silk(const SurfaceSettings& settings)
+      : cloth(glm::ivec2{static_cast<int>(settings.parameters.number("threads"))}, {5, 4}, settings.seed) {}
 
-Image base_color(const SurfaceSettings& settings) {
-  return silk_colors(cloth(settings), settings.resolution, warp_color, weft_color, 0.45);
-}
+  [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const {
+    return silk_color(cloth.at(uv), warp_color, weft_color, 0.45);
+  }
+  [[nodiscard]] glm::dvec3 specular(const glm::dvec2& uv) const {
+    return cloth.at(uv).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.06, 0.028, 0.034};
+  }
+  /// Silk is glossy along the weft's long floats, and dull on the warp.
+  [[nodiscard]] double exponent(const glm::dvec2& uv) const { return silk_exponent(cloth.at(uv), 14.0, 220.0); }
 
-Image specular(const SurfaceSettings& settings) {
-  const Jacquard silk = cloth(settings);
-  return fill_rgb(glm::ivec2{settings.resolution}, [&](const glm::dvec2& uv) {
-    return silk.at(uv).weft ? glm::dvec3{0.55, 0.38, 0.14} : glm::dvec3{0.06, 0.028, 0.034};
-  });
-}
-
-/// Silk is glossy along the weft's long floats, and dull on the warp.
-Image exponents(const SurfaceSettings& settings) {
-  return silk_exponents(cloth(settings), settings.resolution, 14.0, 220.0);
-}
+  Jacquard cloth;
+};
 
 /// One side, `facing` 1 the front and -1 the back. (s, t) runs over the side from corner to corner, -1 to 1.
 class Stuffing {
  public:
-  explicit Stuffing(std::uint32_t seed) : Stuffing(std::mt19937_64(seed)) {}
+  explicit Stuffing(std::uint32_t seed) : random_(seed) {}
 
   [[nodiscard]] BentPoint at(const HeightPoint& point, double facing) const {
     const Height s = spread(point.x), t = spread(point.y);
@@ -53,8 +49,6 @@ class Stuffing {
   }
 
  private:
-  explicit Stuffing(std::mt19937_64 random) : noise_(16, random) {}
-
   static constexpr double quarter = std::numbers::pi / 2.0;
 
   /// Denser near the seams, where the side turns. The slope is never 0, so that corners have a normal.
@@ -70,7 +64,8 @@ class Stuffing {
            0.6 * to_sides * to_ends * corners;
   }
 
-  PeriodicNoise noise_;
+  std::mt19937_64 random_;
+  PeriodicNoise noise_{16, random_};
 };
 
 /// Front and back meet along the seam.
@@ -103,9 +98,9 @@ Surface surface() {
                                       "warp threads along the map's width, and as many weft threads")},
           .default_resolution = 1024,
           .normals = flat_normals,
-          .base_color = base_color,
-          .specular = specular,
-          .lobe_parameter = exponents,
+          .base_color = map_of<4, &Silk::color>,
+          .specular = map_of<3, &Silk::specular>,
+          .lobe_parameter = map_of<1, &Silk::exponent>,
           .distribution = NormalDistribution::blinn_phong,
           .mesh = mesh};
 }

@@ -17,15 +17,6 @@
 namespace footprint {
 namespace {
 
-/// The distribution of scratches. Lengths are in map widths.
-struct ScratchSettings {
-  int count = 0;
-  double length = 0.0;      ///< of the longest; others from two fifths of it
-  double width = 0.0;       ///< of the widest; others from half of it
-  double edge_slope = 0.0;  ///< at the edge of the deepest
-  double shallowest = 0.0;  ///< of the shallowest, as a share of that: 0 to 1
-};
-
 /// A groove along a line, with a parabola for its cross-section. Lengths are in map widths.
 struct Scratch {
   glm::dvec2 centre, direction;  ///< unit direction
@@ -33,43 +24,11 @@ struct Scratch {
   double depth = 0.0;  ///< at its middle line
 };
 
-/// Scratches with positions, directions, sizes and depths drawn from a seed, in a grid so that a texel tests few of
-/// them.
-class ScratchField {
- public:
-  ScratchField(const ScratchSettings& settings, std::uint64_t seed);
-
-  /// The gradient of the deepest scratch at `uv`, within (0, 1); 0 if there is none.
-  [[nodiscard]] glm::dvec2 slope_at(const glm::dvec2& uv) const;
-
- private:
-  static constexpr int side = 128;  ///< cells along the map's width
-
-  void add(Scratch scratch, const glm::dvec2& shift);
-
-  WrappedGrid<std::vector<Scratch>> cells_{side, side};  ///< the scratches that may reach each cell
-};
-
 /// Depth and slope of the cut at a point; 0 without one.
 struct CutSlope {
   double depth = 0.0;
   glm::dvec2 slope{0.0};
 };
-
-std::vector<Scratch> scatter(const ScratchSettings& settings, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::vector<Scratch> scratches(static_cast<std::size_t>(settings.count));
-  for (Scratch& scratch : scratches) {
-    const double x = uniform(random), y = uniform(random), angle = std::numbers::pi * uniform(random);
-    scratch.centre = {x, y};
-    scratch.direction = {std::cos(angle), std::sin(angle)};
-    scratch.half_length = 0.5 * settings.length * (0.4 + 0.6 * uniform(random));
-    scratch.half_width = 0.5 * settings.width * (0.5 + 0.5 * uniform(random));
-    const double share = settings.shallowest + (1.0 - settings.shallowest) * uniform(random);
-    scratch.depth = 0.5 * scratch.half_width * settings.edge_slope * share;
-  }
-  return scratches;
-}
 
 CutSlope cut_at(const Scratch& scratch, const glm::dvec2& uv) {
   const glm::dvec2 across_direction{-scratch.direction.y, scratch.direction.x};
@@ -82,49 +41,59 @@ CutSlope cut_at(const Scratch& scratch, const glm::dvec2& uv) {
           2.0 * scratch.depth * across / scratch.half_width * across_direction};
 }
 
-ScratchField::ScratchField(const ScratchSettings& settings, std::uint64_t seed) {
-  for (const Scratch& scratch : scatter(settings, seed)) {
-    for (int x = -1; x <= 1; ++x) {
-      for (int y = -1; y <= 1; ++y) add(scratch, glm::dvec2{x, y});
+/// Scratches with positions, directions, sizes and depths drawn from a seed, in a grid so that a texel tests few of
+/// them. Parameters, in map widths: `count`; `length` of the longest, others from two fifths of it; `width` of the
+/// widest, others from half of it; `tilt_degrees` at the edge of the deepest.
+class ScratchField {
+ public:
+  /// shallowest: depth of the shallowest as a share of the deepest's, 0 to 1.
+  ScratchField(const SurfaceSettings& settings, double shallowest) {
+    const Options& parameters = settings.parameters;
+    const double length = parameters.number("length"), width = parameters.number("width");
+    const double edge_slope = std::tan(glm::radians(parameters.number("tilt_degrees")));
+    std::mt19937_64 random(settings.seed);
+    for (int i = static_cast<int>(parameters.number("count")); i > 0; --i) {
+      const double x = uniform(random), y = uniform(random), angle = std::numbers::pi * uniform(random);
+      Scratch scratch{.centre = {x, y}, .direction = {std::cos(angle), std::sin(angle)}};
+      scratch.half_length = 0.5 * length * (0.4 + 0.6 * uniform(random));
+      scratch.half_width = 0.5 * width * (0.5 + 0.5 * uniform(random));
+      scratch.depth = 0.5 * scratch.half_width * edge_slope * (shallowest + (1.0 - shallowest) * uniform(random));
+      for (int tile = 0; tile < 9; ++tile) add(scratch, glm::dvec2{tile / 3 - 1, tile % 3 - 1});
     }
   }
-}
 
-glm::dvec2 ScratchField::slope_at(const glm::dvec2& uv) const {
-  CutSlope deepest;
-  for (const Scratch& scratch : cells_.at(static_cast<int>(uv.x * side), static_cast<int>(uv.y * side))) {
-    const CutSlope cut = cut_at(scratch, uv);
-    if (cut.depth > deepest.depth) deepest = cut;
+  /// The gradient of the deepest scratch at `uv`, within (0, 1); 0 if there is none.
+  [[nodiscard]] glm::dvec2 slope_at(const glm::dvec2& uv) const {
+    CutSlope deepest;
+    for (const Scratch& scratch : cells_.at(static_cast<int>(uv.x * side), static_cast<int>(uv.y * side))) {
+      const CutSlope cut = cut_at(scratch, uv);
+      if (cut.depth > deepest.depth) deepest = cut;
+    }
+    return deepest.slope;
   }
-  return deepest.slope;
-}
 
-// Adds the scratch's copy on the next tile, `shift` away, to the cells of this tile that it may reach.
-void ScratchField::add(Scratch scratch, const glm::dvec2& shift) {
-  scratch.centre += shift;
-  const double reach = scratch.half_width + std::numbers::sqrt2 / 2.0 / side;  // from a cell's centre to its corner
-  const glm::dvec2 extent = glm::abs(scratch.direction) * scratch.half_length + reach;
-  const auto first = [&](double low) { return std::clamp(static_cast<int>(std::floor(low * side)), 0, side); };
-  const auto last = [&](double high) { return std::clamp(static_cast<int>(std::ceil(high * side)), 0, side); };
-  const glm::dvec2 low = scratch.centre - extent, high = scratch.centre + extent;
-  for (int y = first(low.y); y < last(high.y); ++y) {
-    for (int x = first(low.x); x < last(high.x); ++x) {
-      const glm::dvec2 offset = (glm::dvec2{x, y} + 0.5) / static_cast<double>(side) - scratch.centre;
-      const double across = scratch.direction.x * offset.y - scratch.direction.y * offset.x;
-      if (std::abs(across) <= reach) cells_.at(x, y).push_back(scratch);
+ private:
+  static constexpr int side = 128;  ///< cells along the map's width
+
+  /// Adds the scratch's copy on the next tile, `shift` away, to the cells of this tile that it may reach.
+  void add(Scratch scratch, const glm::dvec2& shift) {
+    scratch.centre += shift;
+    const double reach = scratch.half_width + std::numbers::sqrt2 / 2.0 / side;  // from a cell's centre to its corner
+    const glm::dvec2 extent = glm::abs(scratch.direction) * scratch.half_length + reach;
+    const auto cell = [](const glm::dvec2& at) { return glm::clamp(glm::ivec2(at), 0, side); };
+    const glm::ivec2 first = cell(glm::floor((scratch.centre - extent) * static_cast<double>(side)));
+    const glm::ivec2 last = cell(glm::ceil((scratch.centre + extent) * static_cast<double>(side)));
+    for (int y = first.y; y < last.y; ++y) {
+      for (int x = first.x; x < last.x; ++x) {
+        const glm::dvec2 offset = (glm::dvec2{x, y} + 0.5) / static_cast<double>(side) - scratch.centre;
+        const double across = scratch.direction.x * offset.y - scratch.direction.y * offset.x;
+        if (std::abs(across) <= reach) cells_.at(x, y).push_back(scratch);
+      }
     }
   }
-}
 
-ScratchField scratches_of(const SurfaceSettings& settings, double shallowest) {
-  const Options& parameters = settings.parameters;
-  return {{.count = static_cast<int>(parameters.number("count")),
-           .length = parameters.number("length"),
-           .width = parameters.number("width"),
-           .edge_slope = std::tan(glm::radians(parameters.number("tilt_degrees"))),
-           .shallowest = shallowest},
-          settings.seed};
-}
+  WrappedGrid<std::vector<Scratch>> cells_{side, side};  ///< the scratches that may reach each cell
+};
 
 }  // namespace
 
@@ -132,7 +101,7 @@ namespace surfaces::scratches {
 namespace {
 
 Image normals(const SurfaceSettings& settings) {
-  const ScratchField scratches = scratches_of(settings, 0.5);
+  const ScratchField scratches(settings, 0.5);
   return fill_normals(settings.resolution,
                       [&](const glm::dvec2& uv) { return normal_of_slope(scratches.slope_at(uv)); });
 }
@@ -156,23 +125,26 @@ Surface surface() {
 namespace surfaces::scratched_metal {
 namespace {
 
-/// The ground: the finest grain, and one three times as coarse.
-OctaveNoise grain_of(const SurfaceSettings& settings) {
-  const Options& parameters = settings.parameters;
-  const int cells = static_cast<int>(parameters.number("grain"));
-  const double slope = parameters.number("grain_slope");
-  const std::array<Octave, 2> octaves{{{cells, slope}, {(cells + 2) / 3, slope}}};
-  std::mt19937_64 random(settings.seed + (std::uint64_t{1} << 32U));
-  return OctaveNoise(octaves, random);
-}
+/// Scratches in a ground with two grains: the finest one, and one three times as coarse.
+class Metal {
+ public:
+  explicit Metal(const SurfaceSettings& settings)
+      : scratches_(settings, 0.05),
+        random_(settings.seed + (std::uint64_t{1} << 32U)),
+        cells_(static_cast<int>(settings.parameters.number("grain"))),
+        slope_(settings.parameters.number("grain_slope")) {}
 
-Image normals(const SurfaceSettings& settings) {
-  const OctaveNoise grain = grain_of(settings);
-  const ScratchField scratches = scratches_of(settings, 0.05);
-  return fill_normals(settings.resolution, [&](const glm::dvec2& uv) {
-    return normal_of_slope(scratches.slope_at(uv) + slope_of(grain.relief(HeightPoint{uv})));
-  });
-}
+  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
+    return normal_of_slope(scratches_.slope_at(uv) + slope_of(grain_.relief(HeightPoint{uv})));
+  }
+
+ private:
+  ScratchField scratches_;
+  std::mt19937_64 random_;
+  int cells_;
+  double slope_;
+  OctaveNoise grain_{std::array<Octave, 2>{{{cells_, slope_}, {(cells_ + 2) / 3, slope_}}}, random_};
+};
 
 }  // namespace
 
@@ -187,7 +159,7 @@ Surface surface() {
                      whole_option("grain", 1500, 1, 8192, "cells of the ground's finest grain along the map's width"),
                      number_option("grain_slope", 0.06, 0, 2, "slope of the grain, about")},
       .default_resolution = 4096,
-      .normals = normals,
+      .normals = map_of<4, &Metal::normal>,
       .mesh = square_mesh};
 }
 

@@ -23,7 +23,7 @@ Image normals(const SurfaceSettings& settings) { return relief_normals(settings,
 /// The folds of the cloth around the table.
 class Drape {
  public:
-  explicit Drape(std::uint32_t seed) : Drape(std::mt19937_64(seed)) {}
+  explicit Drape(std::uint32_t seed) : random_(seed) {}
 
   /// The position of the cloth's point at `at`, metres from its middle: x to the right, y to the back.
   [[nodiscard]] BentPoint at(const HeightPoint& at) const {
@@ -43,8 +43,6 @@ class Drape {
   }
 
  private:
-  explicit Drape(std::mt19937_64 random) : wander_(8, random) {}
-
   /// 0 in a hollow to 1 on a ridge: as many waves around the table as the cloth is too wide there.
   [[nodiscard]] Height folds(const HeightPoint& at, const Height& radius) const {
     constexpr double waves = 9.0;
@@ -56,7 +54,8 @@ class Drape {
     return wave * (0.75 + 0.7 * lesser);
   }
 
-  PeriodicNoise wander_;
+  std::mt19937_64 random_;
+  PeriodicNoise wander_{8, random_};
 };
 
 Mesh mesh(const SurfaceSettings& settings) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
+#include <random>
 #include <vector>
 
 #include "renderer/image/image.hpp"
@@ -12,27 +13,33 @@
 
 namespace footprint {
 
-/// The unit normal at a point of the map: x to the right, y upwards, both within (0, 1).
-using NormalAt = std::function<glm::dvec3(const glm::dvec2& uv)>;
+/// A unit normal, a linear colour of 0 to 1 or a number in x, at a point of the map: u to the right, v upwards, both
+/// within (0, 1).
+using ValueAt = std::function<glm::dvec3(const glm::dvec2& uv)>;
 
-/// The colour (0 to 1, linear) at such a point.
-using ColorAt = std::function<glm::dvec3(const glm::dvec2& uv)>;
+/// The values at the texels' centres, with 1 in a fourth channel. The function is called from several threads at once.
+[[nodiscard]] Image fill_map(glm::ivec2 size, int channels, const ValueAt& value_at);
 
-/// A single value, such as the exponent of a lobe, at such a point.
-using ValueAt = std::function<double(const glm::dvec2& uv)>;
-
-/// The normals at the texels' centres, with weight 1. The functions are called from several threads at once.
-[[nodiscard]] Image fill_normals(int resolution, const NormalAt& normal_at);
+/// A map of normals.
+[[nodiscard]] inline Image fill_normals(int resolution, const ValueAt& normal_at) {
+  return fill_map(glm::ivec2{resolution}, 4, normal_at);
+}
 
 /// Normals without relief, (0, 0, 1): Surface::normals of a surface that has only colours or a shape.
 [[nodiscard]] Image flat_normals(const SurfaceSettings& settings);
 
-/// The colours at the texels' centres of a map of any width and height, with alpha 1 in a fourth channel.
-[[nodiscard]] Image fill_colors(glm::ivec2 size, const ColorAt& color_at);
-
-/// The colours in three channels, and values in one.
-[[nodiscard]] Image fill_rgb(glm::ivec2 size, const ColorAt& color_at);
-[[nodiscard]] Image fill_values(glm::ivec2 size, const ValueAt& value_at);
+/// A function of Surface: the map of a member function, such as `double alpha(const glm::dvec2& uv) const`, of a class
+/// that is constructed from the settings. The class may have a static function `size_of` (settings) of its maps.
+template <int channels, auto value_at>
+[[nodiscard]] Image map_of(const SurfaceSettings& settings) {
+  const auto fill = [&]<class Field, class Value>(Value (Field::*value)(const glm::dvec2&) const) {
+    const Field field(settings);
+    glm::ivec2 size{settings.resolution};
+    if constexpr (requires { Field::size_of(settings); }) size = Field::size_of(settings);
+    return fill_map(size, channels, [&](const glm::dvec2& uv) { return glm::dvec3{(field.*value)(uv)}; });
+  };
+  return fill(value_at);
+}
 
 /// The unit normal of a height field with gradient `slope` (rise over run along x and y).
 [[nodiscard]] inline glm::dvec3 normal_of_slope(const glm::dvec2& slope) {

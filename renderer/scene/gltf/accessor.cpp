@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <string>
+#include <type_traits>
 
 #include "renderer/scene/gltf/check.hpp"
 
@@ -13,23 +15,6 @@ namespace footprint {
 namespace {
 
 constexpr std::uint64_t largest_unbacked_count = std::uint64_t{1} << 20U;
-
-/// Bytes of one component; 0 for a type that Footprint does not read.
-std::size_t component_size(int type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return 4;
-    default:
-      return 0;
-  }
-}
 
 /// Elements in a buffer, `stride` bytes apart, of any alignment.
 struct Elements {
@@ -51,7 +36,7 @@ struct Elements {
 Elements locate(const tinygltf::Model& model, int view_index, std::uint64_t offset, std::uint64_t count,
                 std::size_t components, int type, const std::string& place) {
   const auto& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-  const std::uint64_t element = components * component_size(type);
+  const std::uint64_t element = components * visit_component(type, [](auto kind) { return sizeof(kind); });
   const std::uint64_t stride = view.byteStride == 0 ? element : view.byteStride;
   if (stride < element)
     refuse_gltf(place, fmt::format("the stride of {} bytes is less than an element's {}", stride, element));
@@ -64,35 +49,18 @@ Elements locate(const tinygltf::Model& model, int view_index, std::uint64_t offs
           type};
 }
 
-/// The value of a normalised integer (glTF 2.0, section 3.6.2.2).
+/// Normalised integers are converted (glTF 2.0, section 3.6.2.2).
 float float_component(const Elements& elements, std::size_t i, std::size_t c, bool normalized) {
-  switch (elements.type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: {
-      const auto value = static_cast<float>(elements.get<std::int8_t>(i, c));
-      return normalized ? std::max(value / 127.0F, -1.0F) : value;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return static_cast<float>(elements.get<std::uint8_t>(i, c)) / (normalized ? 255.0F : 1.0F);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: {
-      const auto value = static_cast<float>(elements.get<std::int16_t>(i, c));
-      return normalized ? std::max(value / 32767.0F, -1.0F) : value;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return static_cast<float>(elements.get<std::uint16_t>(i, c)) / (normalized ? 65535.0F : 1.0F);
-    default:
-      return elements.get<float>(i, c);
-  }
+  return visit_component(elements.type, [&]<class T>(T /*kind*/) {
+    const auto value = static_cast<float>(elements.get<T>(i, c));
+    if (!normalized || std::is_floating_point_v<T>) return value;
+    return std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0F);
+  });
 }
 
 std::uint32_t index_component(const Elements& elements, std::size_t i) {
-  switch (elements.type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return elements.get<std::uint8_t>(i, 0);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return elements.get<std::uint16_t>(i, 0);
-    default:
-      return elements.get<std::uint32_t>(i, 0);
-  }
+  return visit_component(elements.type,
+                         [&]<class T>(T /*kind*/) { return static_cast<std::uint32_t>(elements.get<T>(i, 0)); });
 }
 
 bool is_index_type(int type) {
@@ -150,9 +118,7 @@ std::vector<float> read_floats(const tinygltf::Model& model, int accessor_index,
   const std::string place = place_of(accessor_index);
   check_shape(accessor, components, place);
   const int type = accessor.componentType;
-  if (component_size(type) == 0 || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    refuse_gltf(place, "is neither float nor an 8 or 16 bit integer");
-  }
+  if (!is_attribute_type(type)) refuse_gltf(place, "is neither float nor an 8 or 16 bit integer");
   const auto width = static_cast<std::size_t>(components);
   Elements elements;
   if (accessor.bufferView >= 0) {

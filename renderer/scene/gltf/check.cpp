@@ -168,38 +168,45 @@ const std::vector<RuleGroup>& rule_groups() {
   return groups;
 }
 
-constexpr auto supported = std::to_array<std::string_view>(
-    {"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual", "KHR_materials_anisotropy",
-     "KHR_materials_clearcoat", "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit",
-     "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_transform"});
-
-/// An extension and its meaning.
-struct ExtensionWord {
-  std::string_view name, meaning;
+enum class Support {
+  read,
+  layer,     ///< adds `meaning` to a surface that is whole without it
+  encoding,  ///< stores a file as `meaning`, which is not read
 };
 
-/// Those that add something to a surface which is whole without it.
-constexpr auto layers = std::to_array<ExtensionWord>({
-    {"KHR_materials_diffuse_transmission", "diffuse transmission"},
-    {"KHR_materials_dispersion", "dispersion"},
-    {"KHR_materials_emissive_strength", "the strength of emissive light"},
-    {"KHR_materials_iridescence", "iridescence"},
-    {"KHR_materials_sheen", "sheen"},
-    {"KHR_materials_specular", "the strength and colour of the specular term"},
-    {"KHR_materials_transmission", "transmission"},
-    {"KHR_materials_volume", "the volume under the surface"},
+struct Extension {
+  std::string_view name;
+  Support support = Support::read;
+  std::string_view meaning{};
+};
+
+constexpr auto known_extensions = std::to_array<Extension>({
+    {"EXT_meshopt_compression"},
+    {"KHR_draco_mesh_compression"},
+    {"KHR_lights_punctual"},
+    {"KHR_materials_anisotropy"},
+    {"KHR_materials_clearcoat"},
+    {"KHR_materials_ior"},
+    {"KHR_materials_pbrSpecularGlossiness"},
+    {"KHR_materials_unlit"},
+    {"KHR_materials_variants"},
+    {"KHR_mesh_quantization"},
+    {"KHR_texture_transform"},
+    {"KHR_materials_diffuse_transmission", Support::layer, "diffuse transmission"},
+    {"KHR_materials_dispersion", Support::layer, "dispersion"},
+    {"KHR_materials_emissive_strength", Support::layer, "the strength of emissive light"},
+    {"KHR_materials_iridescence", Support::layer, "iridescence"},
+    {"KHR_materials_sheen", Support::layer, "sheen"},
+    {"KHR_materials_specular", Support::layer, "the strength and colour of the specular term"},
+    {"KHR_materials_transmission", Support::layer, "transmission"},
+    {"KHR_materials_volume", Support::layer, "the volume under the surface"},
+    {"EXT_texture_webp", Support::encoding, "WebP textures"},
+    {"KHR_texture_basisu", Support::encoding, "KTX2 textures (Basis Universal)"},
 });
 
-/// Ways to store a file that are not read.
-constexpr auto encodings = std::to_array<ExtensionWord>({
-    {"EXT_texture_webp", "WebP textures"},
-    {"KHR_texture_basisu", "KTX2 textures (Basis Universal)"},
-});
-
-template <std::size_t count>
-std::string_view meaning_of(std::string_view name, const std::array<ExtensionWord, count>& known) {
-  const auto found = std::ranges::find(known, name, &ExtensionWord::name);
-  return found == known.end() ? std::string_view{} : found->meaning;
+const Extension* find_extension(std::string_view name, Support support) {
+  const auto* const found = std::ranges::find(known_extensions, name, &Extension::name);
+  return found != known_extensions.end() && found->support == support ? found : nullptr;
 }
 
 std::size_t array_size(const json& document, std::string_view path) {
@@ -323,9 +330,9 @@ void check_required_extensions(const json& document) {
   for (const json& extension : document.value("extensionsRequired", json::array())) {
     const auto name = extension.get<std::string>();
     if (reads_gltf_extension(name) || !gltf_layer(name).empty()) continue;
-    const std::string_view encoding = meaning_of(name, encodings);
     missing += (missing.empty() ? "" : ", ") + name;
-    if (!encoding.empty()) missing += fmt::format(" ({})", encoding);
+    if (const Extension* encoding = find_extension(name, Support::encoding))
+      missing += fmt::format(" ({})", encoding->meaning);
   }
   if (!missing.empty()) {
     refuse_gltf("extensionsRequired", "requires what Footprint does not support: " + missing.substr(0, 400),
@@ -412,8 +419,11 @@ void check_gltf_json(const json& document) {
   check_embedded_buffers(document);
 }
 
-bool reads_gltf_extension(std::string_view name) { return std::ranges::find(supported, name) != supported.end(); }
+bool reads_gltf_extension(std::string_view name) { return find_extension(name, Support::read) != nullptr; }
 
-std::string_view gltf_layer(std::string_view name) { return meaning_of(name, layers); }
+std::string_view gltf_layer(std::string_view name) {
+  const Extension* const layer = find_extension(name, Support::layer);
+  return layer != nullptr ? layer->meaning : std::string_view{};
+}
 
 }  // namespace footprint

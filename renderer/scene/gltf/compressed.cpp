@@ -169,23 +169,6 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
   return bytes;
 }
 
-Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points, int component_type) {
-  switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return values_of<std::int8_t>(attribute, points);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return values_of<std::uint8_t>(attribute, points);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return values_of<std::int16_t>(attribute, points);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return values_of<std::uint16_t>(attribute, points);
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return values_of<float>(attribute, points);
-    default:
-      refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", component_type));
-  }
-}
-
 void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::string& name, int id, int accessor) {
   auto& target = model.accessors[static_cast<std::size_t>(accessor)];
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
@@ -199,8 +182,11 @@ void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::
                                              attribute->num_components(), accessor, components));
   if (!is_whole(*attribute, mesh.num_points()))
     refuse_gltf(draco_extension, fmt::format("{}: its data is damaged", name));
-  Bytes bytes = values_of(*attribute, mesh.num_points(), target.componentType);
-  point_at(target, add_view(model, std::move(bytes)));
+  if (!is_attribute_type(target.componentType))
+    refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", target.componentType));
+  point_at(target, add_view(model, visit_component(target.componentType, [&]<class T>(T /*kind*/) {
+                              return values_of<T>(*attribute, mesh.num_points());
+                            })));
 }
 
 void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor) {

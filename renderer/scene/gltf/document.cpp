@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -27,6 +26,10 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
   const auto b = bytes.subspan(offset, 4);
   return static_cast<std::uint32_t>(b[0]) | static_cast<std::uint32_t>(b[1]) << 8U |
          static_cast<std::uint32_t>(b[2]) << 16U | static_cast<std::uint32_t>(b[3]) << 24U;
+}
+
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 [[noreturn]] void fail_container(const std::string& message) {
@@ -54,7 +57,7 @@ std::string_view glb_json(std::span<const std::uint8_t> bytes) {
     }
     if (word_at(bytes, json_end + 4) != binary_chunk) fail_container("the second chunk is not binary data");
   }
-  return {reinterpret_cast<const char*>(bytes.data()) + header + chunk_header, json_length};
+  return text_of(bytes.subspan(header + chunk_header, json_length));
 }
 
 bool keep_encoded(tinygltf::Image* image, const int /*index*/, std::string* /*error*/, std::string* /*warning*/,
@@ -106,8 +109,7 @@ tinygltf::Model parse(std::span<const std::uint8_t> bytes, bool binary, std::str
   bool loaded = false;
   try {
     loaded = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, folder)
-                    : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(bytes.data()),
-                                                 size, folder);
+                    : loader.LoadASCIIFromString(&model, &error, &warning, text_of(bytes).data(), size, folder);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::machine, {}, "out of memory while reading the glTF file", "use a smaller model");
   } catch (const std::exception& thrown) {
@@ -136,10 +138,9 @@ std::vector<std::uint8_t> with_json(std::span<const std::uint8_t> glb, std::stri
   return out;
 }
 
-tinygltf::Model parse_checked(std::span<const std::uint8_t> bytes, bool binary, const std::string& folder) {
-  nlohmann::json document = parse_gltf_json(
-      binary ? glb_json(bytes) : std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  check_gltf_json(document);
+// Parses a checked document with changes that tinygltf needs.
+tinygltf::Model parse_changed(std::span<const std::uint8_t> bytes, bool binary, nlohmann::json document,
+                              const std::string& folder) {
   const bool has_fallbacks = fill_fallback_buffers(document), has_draco = fill_draco_indices(document);
   if (!has_fallbacks && !has_draco) return parse(bytes, binary, folder);
   const std::string text = document.dump();
@@ -151,13 +152,15 @@ tinygltf::Model parse_checked(std::span<const std::uint8_t> bytes, bool binary, 
 
 GltfDocument read_gltf(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = read_file_bytes(file, largest_file);
-  constexpr std::string_view magic = "glTF";
-  const bool binary = bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+  const bool binary = text_of(bytes).starts_with("glTF");
   try {
     if (!binary && std::ranges::find(bytes, 0) != bytes.end()) {
       throw Error(ErrorKind::usage, {}, "is neither JSON text nor a GLB container", damaged_hint);
     }
-    GltfDocument document{parse_checked(bytes, binary, std::filesystem::absolute(file).parent_path().string()), file};
+    GltfDocument document{parse_gltf_json(binary ? glb_json(bytes) : text_of(bytes)), {}, file};
+    check_gltf_json(document.json);
+    document.model =
+        parse_changed(bytes, binary, document.json, std::filesystem::absolute(file).parent_path().string());
     decode_meshopt(document.model);
     decode_draco(document.model);
     return document;

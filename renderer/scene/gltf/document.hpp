@@ -5,15 +5,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace footprint {
 
-/// A checked document: indices are in range, and buffer views within their buffers. Compressed geometry
-/// is decoded. `model.images[i].image` stores encoded bytes, empty if an external file could not be
-/// read.
+/// A checked document and its content as tinygltf reads it: indices are in range, and buffer views within their
+/// buffers. Compressed geometry is decoded. `model.images[i].image` stores encoded bytes, empty if an external file
+/// could not be read.
 struct GltfDocument {
+  nlohmann::json json;
   tinygltf::Model model;
   std::filesystem::path file;
 };
@@ -22,6 +23,31 @@ struct GltfDocument {
 /// empty, over 2 GiB, not glTF 2.0, a broken GLB container, as check_gltf_json, a missing buffer or one of another
 /// size, damaged compressed geometry.
 [[nodiscard]] GltfDocument read_gltf(const std::filesystem::path& file);
+
+/// Whether a component type is one of vertex attributes: float, or an integer of 8 or 16 bits.
+[[nodiscard]] inline bool is_attribute_type(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+         (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+}
+
+/// `visit` of a value of a component type: one of vertex attributes, or of an unsigned integer of 32 bits.
+template <class Visit>
+auto visit_component(int type, const Visit& visit) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return visit(std::int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return visit(std::uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return visit(std::int16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return visit(std::uint16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return visit(std::uint32_t{});
+    default:
+      return visit(float{});
+  }
+}
 
 /// The largest number of elements of an accessor, and of triangles and vertices of a scene.
 inline constexpr std::uint64_t largest_element_count = std::uint64_t{1} << 26U;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "renderer/core/error.hpp"
@@ -115,65 +116,32 @@ Light convert_light(const tinygltf::Model& model, int index, const glm::dmat4& w
                    static_cast<float>(outer)};
 }
 
-constexpr const char* variants_extension = "KHR_materials_variants";
+using Json = nlohmann::json;
+using Pointer = Json::json_pointer;
 
-std::string name_or_number(const std::string& name, const char* kind, std::size_t number) {
-  return name.empty() ? fmt::format("{} {}", kind, number) : name;
-}
-
-ModelChoice scene_choice(const tinygltf::Model& model, const std::optional<std::string>& wanted) {
-  ModelChoice choice{"scene", {}, {}};
-  for (std::size_t i = 0; i < model.scenes.size(); ++i) {
-    choice.names.push_back(name_or_number(model.scenes[i].name, "scene", i));
-  }
-  if (wanted) {
-    choice.taken = find_choice(choice, *wanted);
-  } else if (!model.scenes.empty()) {
-    choice.taken = static_cast<std::size_t>(std::max(model.defaultScene, 0));
-  }
-  return choice;
-}
-
-ModelChoice variant_choice(const tinygltf::Model& model, const std::optional<std::string>& wanted) {
-  ModelChoice choice{"variant", {}, {}};
-  if (const auto found = model.extensions.find(variants_extension); found != model.extensions.end()) {
-    const tinygltf::Value& variants = found->second.Get("variants");
-    for (int i = 0; i < static_cast<int>(variants.ArrayLen()); ++i) {
-      const tinygltf::Value& name = variants.Get(i).Get("name");
-      choice.names.push_back(
-          name_or_number(name.IsString() ? name.Get<std::string>() : "", "variant", static_cast<std::size_t>(i)));
+/// The entries of one kind, with the index of the `wanted` one; else `otherwise`, if there are any.
+ModelChoice choose(const Json& document, const char* kind, const Pointer& entries,
+                   const std::optional<std::string>& wanted, std::optional<std::size_t> otherwise = {}) {
+  ModelChoice choice{kind, {}, {}};
+  if (document.contains(entries)) {
+    for (const Json& entry : document[entries]) {
+      const std::string name = entry.value("name", "");
+      choice.names.push_back(name.empty() ? fmt::format("{} {}", kind, choice.names.size()) : name);
     }
   }
-  if (wanted) choice.taken = find_choice(choice, *wanted);
+  choice.taken = wanted ? find_choice(choice, *wanted) : choice.names.empty() ? std::nullopt : otherwise;
   return choice;
 }
 
-// None is taken unless it or a time is given.
-ModelChoice animation_choice(const tinygltf::Model& model, const ModelSelection& wanted) {
-  ModelChoice choice{"animation", {}, {}};
-  for (std::size_t i = 0; i < model.animations.size(); ++i)
-    choice.names.push_back(name_or_number(model.animations[i].name, "animation", i));
-  if (wanted.animation) {
-    choice.taken = find_choice(choice, *wanted.animation);
-  } else if (wanted.time) {
-    choice.taken = find_choice(choice, "0");
-  }
-  return choice;
-}
-
-int material_in_variant(const tinygltf::Primitive& primitive, const std::optional<std::size_t>& variant) {
-  const auto found = primitive.extensions.find(variants_extension);
-  if (!variant || found == primitive.extensions.end()) return primitive.material;
-  const tinygltf::Value& mappings = found->second.Get("mappings");
-  for (int i = 0; i < static_cast<int>(mappings.ArrayLen()); ++i) {
-    const tinygltf::Value& mapping = mappings.Get(i);
-    const tinygltf::Value& variants = mapping.Get("variants");
-    for (int j = 0; j < static_cast<int>(variants.ArrayLen()); ++j) {
-      if (variants.Get(j).GetNumberAsInt() == static_cast<int>(*variant))
-        return mapping.Get("material").GetNumberAsInt();
+int material_in_variant(const Json& primitive, const std::optional<std::size_t>& variant) {
+  const Pointer mappings("/extensions/KHR_materials_variants/mappings");
+  if (variant && primitive.contains(mappings)) {
+    for (const Json& mapping : primitive[mappings]) {
+      if (std::ranges::find(mapping["variants"], Json(*variant)) != mapping["variants"].end())
+        return mapping["material"].get<int>();
     }
   }
-  return primitive.material;
+  return primitive.value("material", -1);
 }
 
 constexpr int deepest_node = 1000;
@@ -253,8 +221,9 @@ class Gatherer {
     if (node.mesh < 0) return;
     const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
     const MeshPose pose = pose_.of_mesh(node, world);
+    const Json& primitives = document_.json["meshes"][static_cast<std::size_t>(node.mesh)]["primitives"];
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-      const int material = materials_.use(material_in_variant(mesh.primitives[i], variant_));
+      const int material = materials_.use(material_in_variant(primitives[i], variant_));
       auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), pose,
                                     materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
       if (part) merge(std::move(*part), material);
@@ -320,15 +289,20 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
   Model result;
   warn_left_out(document.model, result);
   try {
-    const ModelChoice& scene = result.choices.emplace_back(scene_choice(document.model, selection.scene));
-    const std::vector<int> roots = root_nodes(document.model, scene.taken);
-    const ModelChoice variant = variant_choice(document.model, selection.variant);
+    const Json& json = document.json;
+    const ModelChoice scene =
+        choose(json, "scene", Pointer("/scenes"), selection.scene, json.value("scene", std::size_t{0}));
+    const ModelChoice variant =
+        choose(json, "variant", Pointer("/extensions/KHR_materials_variants/variants"), selection.variant);
     require_memory(decoded_map_bytes(document), "decoding the model's maps", "scale its textures down, or free memory");
-    const ModelChoice animation = animation_choice(document.model, selection);
+    const bool first_animation = selection.time && !selection.animation;
+    const ModelChoice animation = choose(json, "animation", Pointer("/animations"),
+                                         first_animation ? std::optional<std::string>("0") : selection.animation);
     const Pose pose(document.model, animation.taken, selection.time.value_or(0.0));
     result.motion = pose.motion();
     Gatherer gathered(document, pose, variant.taken, result);
-    gathered.gather(roots);
+    gathered.gather(root_nodes(document.model, scene.taken));
+    result.choices.push_back(scene);
     take_camera(document.model, gathered, selection.camera, result);
     result.choices.push_back(variant);
     result.choices.push_back(animation);

@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
-#include <optional>
 #include <vector>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {
@@ -46,13 +45,6 @@ std::string form_of(const FootprintFilterWord& word) {
   return takes_number(word) ? fmt::format("{}:N ({} to {})", word.name, word.least, word.most) : std::string(word.name);
 }
 
-std::optional<int> whole(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
-}
-
 }  // namespace
 
 std::span<const FootprintFilterWord> footprint_filter_words() { return words; }
@@ -78,7 +70,7 @@ FootprintFilter parse_footprint_filter(std::string_view text, std::string_view p
   }
   if (!takes_number(word)) throw refuse("has a number, and takes none");
   const auto number = [&](std::string_view digits, int least, int most) {
-    const std::optional<int> value = whole(digits);
+    const auto value = parse_whole_of<int>(digits);
     if (!value) throw refuse("has no whole number behind the colon");
     if (*value < least || *value > most) throw refuse("is out of range");
     return *value;

@@ -59,13 +59,31 @@ Lobe own_lobe_of(const Material& material) {
   return lobe_from_alpha(distribution, roughness * roughness);
 }
 
-// Values that are their bytes.
+// Values that are their bytes; of structures those without gaps between their members.
 template <class T>
-struct IsPlain : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <int size, class T, glm::qualifier q>
-struct IsPlain<glm::vec<size, T, q>> : std::true_type {};
+constexpr bool is_plain<glm::vec<size, T, q>> = true;
 template <int columns, int rows, class T, glm::qualifier q>
-struct IsPlain<glm::mat<columns, rows, T, q>> : std::true_type {};
+constexpr bool is_plain<glm::mat<columns, rows, T, q>> = true;
+template <>
+constexpr bool is_plain<TextureCoordinates> = sizeof(TextureCoordinates) == (1 + 6 + 2) * 4;
+template <>
+constexpr bool is_plain<FacetLobe> = sizeof(FacetLobe) == (3 + 1 + 1) * 4;
+template <>
+constexpr bool is_plain<Anisotropy> = sizeof(Anisotropy) == (1 + 1) * 4;
+template <>
+constexpr bool is_plain<Vertex> = sizeof(Vertex) == (3 + 3 + 4 + 2 + 2 + 4) * 4;
+template <>
+constexpr bool is_plain<DirectionalLight> = sizeof(DirectionalLight) == (3 + 3) * 4;
+template <>
+constexpr bool is_plain<AreaLight> = sizeof(AreaLight) == (1 + 3 + 3 + 3 + 3 + 2 + 3 + 1 + 1) * 4;
+template <>
+constexpr bool is_plain<Bounds> = sizeof(Bounds) == (3 + 3) * 4;
+template <>
+constexpr bool is_plain<Motion> = sizeof(Motion) == (1 + 1) * 8;
+template <>
+constexpr bool is_plain<FootprintFilter> = sizeof(FootprintFilter) == (1 + 1 + 1) * 4;
 
 // Counts values into a hash. Structures are taken apart by structured bindings: one with a field more does not compile
 // until that field is counted.
@@ -74,11 +92,12 @@ class Counter {
   explicit Counter(ContentHash& hash) : hash_(&hash) {}
 
   template <class T>
-  requires IsPlain<T>::value void add(const T& value) { hash_->add(std::as_bytes(std::span(&value, 1))); }
+  requires is_plain<T>
+  void add(const T& value) { hash_->add(std::as_bytes(std::span(&value, 1))); }
 
   template <class T>
   void add(const std::vector<T>& values) {
-    if constexpr (IsPlain<T>::value) {
+    if constexpr (is_plain<T>) {
       hash_->add(std::as_bytes(std::span(values)));
     } else {
       add(values.size());
@@ -116,26 +135,11 @@ class Counter {
     add_all(distribution, geometry, fresnel, diffuse);
   }
 
-  void add(const TextureCoordinates& coordinates) {
-    const auto& [set, transform, wrap] = coordinates;
-    add_all(set, transform, wrap[0], wrap[1]);
-  }
-
   void add(const TextureMap& map) {
     const auto& [name, image, coordinates] = map;
     add(static_cast<bool>(image));
     if (image) add(image.decoded());
     add(coordinates);
-  }
-
-  void add(const FacetLobe& lobe) {
-    const auto& [axis, parameter, weight] = lobe;
-    add_all(axis, parameter, weight);
-  }
-
-  void add(const Anisotropy& anisotropy) {
-    const auto& [strength, rotation] = anisotropy;
-    add_all(strength, rotation);
   }
 
   void add(const ClearCoat& coat) {
@@ -174,9 +178,7 @@ class Counter {
 
   void add(const Mesh& mesh) {
     const auto& [name, vertices, indices, material] = mesh;
-    static_assert(sizeof(Vertex) == 18 * sizeof(float), "a vertex is its bytes, without gaps");
-    hash_->add(std::as_bytes(std::span(vertices)));
-    add_all(name, indices, material);
+    add_all(name, vertices, indices, material);
   }
 
   void add(const PointLight& light) {
@@ -187,16 +189,6 @@ class Counter {
   void add(const SpotLight& light) {
     const auto& [point, direction, inner, outer] = light;
     add_all(point, direction, inner, outer);
-  }
-
-  void add(const DirectionalLight& light) {
-    const auto& [direction, illuminance] = light;
-    add_all(direction, illuminance);
-  }
-
-  void add(const AreaLight& light) {
-    const auto& [shape, position, direction, across, up, half_size, intensity, integral, points] = light;
-    add_all(shape, position, direction, across, up, half_size, intensity, integral, points);
   }
 
   void add(const Camera& camera) {
@@ -212,18 +204,6 @@ class Counter {
   void add(const ShadowSettings& shadows) {
     const auto& [cast, both_sides, resolution] = shadows;
     add_all(cast, both_sides, resolution);
-  }
-
-  void add(const Bounds& bounds) {
-    const auto& [lower, upper] = bounds;
-    add_all(lower, upper);
-  }
-
-  void add(const Motion& motion) { add_all(motion.last_key, motion.content); }
-
-  void add(const FootprintFilter& filter) {
-    const auto& [kind, count, depth] = filter;
-    add_all(kind, count, depth);
   }
 
   void add(const Scene& scene) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
 
@@ -76,10 +76,10 @@ class ObjReader {
     glm::vec<Count, float> values{0.0F};
     for (int i = 0; i < Count; ++i) {
       const std::string_view word = next_word(line);
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
-      if (error != std::errc{} || end != word.data() + word.size() || !(std::abs(values[i]) <= farthest)) {
+      const auto value = parse_whole_of<float>(word);
+      if (!value || !(std::abs(*value) <= farthest))
         throw fault(fmt::format("`{:.40}` is not a number within 1e15", word));
-      }
+      values[i] = *value;
     }
     return values;
   }
@@ -111,13 +111,10 @@ class ObjReader {
   }
 
   [[nodiscard]] int index_of(std::string_view part, std::size_t size, std::string_view word) const {
-    std::int64_t index = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+    const auto index = parse_whole_of<std::int64_t>(part);
     const auto count = static_cast<std::int64_t>(size);
-    const std::int64_t found = index < 0 ? count + index : index - 1;
-    if (error != std::errc{} || end != part.data() + part.size() || found < 0 || found >= count) {
-      throw fault(fmt::format("`{:.40}` is not a vertex of an earlier line", word));
-    }
+    const std::int64_t found = !index ? -1 : *index < 0 ? count + *index : *index - 1;
+    if (found < 0 || found >= count) throw fault(fmt::format("`{:.40}` is not a vertex of an earlier line", word));
     return static_cast<int>(found);
   }
 

@@ -24,12 +24,6 @@ void check_resolution(const Surface& surface, int resolution) {
                  "give a smaller resolution, or free memory");
 }
 
-Image optional_map(const Surface& surface, Image (*map)(const SurfaceSettings&), const SurfaceSettings& settings) {
-  if (map == nullptr) return {};
-  check_resolution(surface, settings.resolution);
-  return map(settings);
-}
-
 }  // namespace
 
 const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name) {
@@ -43,21 +37,11 @@ SurfaceSettings surface_settings(const Surface& surface, const std::map<std::str
           .parameters = Options(surface.parameters, given, "surface " + surface.name)};
 }
 
-Image surface_normals(const Surface& surface, const SurfaceSettings& settings) {
+Image surface_map(const Surface& surface, const SurfaceSettings& settings,
+                  Image (*Surface::*map)(const SurfaceSettings&)) {
+  if (surface.*map == nullptr) return {};
   check_resolution(surface, settings.resolution);
-  return surface.normals(settings);
-}
-
-Image surface_base_color(const Surface& surface, const SurfaceSettings& settings) {
-  return optional_map(surface, surface.base_color, settings);
-}
-
-Image surface_specular(const Surface& surface, const SurfaceSettings& settings) {
-  return optional_map(surface, surface.specular, settings);
-}
-
-Image surface_lobe_parameter(const Surface& surface, const SurfaceSettings& settings) {
-  return optional_map(surface, surface.lobe_parameter, settings);
+  return (surface.*map)(settings);
 }
 
 }  // namespace footprint

@@ -24,7 +24,7 @@ struct SurfaceSettings {
   Options parameters;      ///< of the surface's own table
 };
 
-/// One kind of surface. Call it by `surface_normals` and the functions below, which check the settings.
+/// One kind of surface. Make its maps by `surface_map`, which checks the settings.
 struct Surface {
   std::string name;
   std::string summary;  ///< one sentence
@@ -59,15 +59,14 @@ struct SceneLibrary {
 /// The default settings of a surface, with `given` parameters by name. Throws Error (usage): as of Options.
 [[nodiscard]] SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given);
 
-/// The normal map. Throws Error (usage): a resolution out of range; (machine): more than memory.
-[[nodiscard]] Image surface_normals(const Surface& surface, const SurfaceSettings& settings);
+/// A map of a surface, such as &Surface::base_color; empty if it has none. Throws Error (usage): a resolution out of
+/// range; (machine): more than memory.
+[[nodiscard]] Image surface_map(const Surface& surface, const SurfaceSettings& settings,
+                                Image (*Surface::*map)(const SurfaceSettings&));
 
-/// The colour map; empty where the surface has none. Throws as `surface_normals`.
-[[nodiscard]] Image surface_base_color(const Surface& surface, const SurfaceSettings& settings);
-
-/// The maps of reflectance at normal incidence and of the lobe; empty if the surface has none. Throws as
-/// `surface_normals`.
-[[nodiscard]] Image surface_specular(const Surface& surface, const SurfaceSettings& settings);
-[[nodiscard]] Image surface_lobe_parameter(const Surface& surface, const SurfaceSettings& settings);
+/// The normal map. Throws as `surface_map`.
+[[nodiscard]] inline Image surface_normals(const Surface& surface, const SurfaceSettings& settings) {
+  return surface_map(surface, settings, &Surface::normals);
+}
 
 }  // namespace footprint

@@ -157,7 +157,7 @@ TEST(Desert, SandIsOfOneColourNearly) {
   const Surface& desert = find_surface(all_surfaces(), "desert");
   SurfaceSettings settings = surface_settings(desert, {});
   settings.resolution = 256;
-  const Image colors = surface_base_color(desert, settings);
+  const Image colors = surface_map(desert, settings, &Surface::base_color);
   ASSERT_EQ(colors.texel_count(), 256U * 256U);
   double darkest = 1.0, lightest = 0.0;
   for (int y = 0; y < 256; ++y) {

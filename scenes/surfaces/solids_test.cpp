@@ -94,7 +94,7 @@ TEST(ChessBoard, HasSquaresOfTwoColoursAndADarkOneAtTheLowerLeft) {
   const Surface& surface = find_surface(all_surfaces(), "chess_board");
   SurfaceSettings settings = surface_settings(surface, {});
   settings.resolution = 16;
-  const Image colors = surface_base_color(surface, settings);
+  const Image colors = surface_map(surface, settings, &Surface::base_color);
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) {
       ASSERT_EQ(colors.at(x, y)[0] < 0.2F, (x / 2 + (15 - y) / 2) % 2 == 0);

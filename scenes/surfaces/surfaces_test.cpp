@@ -71,8 +71,8 @@ TEST_P(EverySurface, HasUnitNormalsOutOfTheSurfaceAtAnySize) {
 
 /// All maps that a surface has.
 std::vector<Image> maps(const Surface& surface, const SurfaceSettings& settings) {
-  return {surface_normals(surface, settings), surface_base_color(surface, settings),
-          surface_specular(surface, settings), surface_lobe_parameter(surface, settings)};
+  return {surface_normals(surface, settings), surface_map(surface, settings, &Surface::base_color),
+          surface_map(surface, settings, &Surface::specular), surface_map(surface, settings, &Surface::lobe_parameter)};
 }
 
 /// Whether chance has no part in a surface.
@@ -93,9 +93,10 @@ TEST_P(EverySurface, IsAFunctionOfItsSeedAlone) {
 
 TEST_P(EverySurface, HasMapsOfItsBrdfWithinTheirRanges) {
   for (const int resolution : {1, 2, 33, 128}) {
-    const auto [colors, speculars, lobes] = std::array{surface_base_color(GetParam(), settings(resolution)),
-                                                       surface_specular(GetParam(), settings(resolution)),
-                                                       surface_lobe_parameter(GetParam(), settings(resolution))};
+    const auto [colors, speculars, lobes] =
+        std::array{surface_map(GetParam(), settings(resolution), &Surface::base_color),
+                   surface_map(GetParam(), settings(resolution), &Surface::specular),
+                   surface_map(GetParam(), settings(resolution), &Surface::lobe_parameter)};
     for (const Image& map : {colors, speculars}) {
       for (const float value : map.texels) ASSERT_TRUE(value >= 0.0F && value <= 1.0F) << value;
     }

@@ -178,7 +178,8 @@ TEST(CarPaint, HasTheLobeOfAFlakeWhereThereIsOne) {
   const Surface& surface = find_surface(all_surfaces(), "car_paint");
   SurfaceSettings settings = surface_settings(surface, {{"peel", "0"}, {"flake_alpha", "0.05"}});
   settings.resolution = 128;
-  const Image normals = surface_normals(surface, settings), alphas = surface_lobe_parameter(surface, settings);
+  const Image normals = surface_normals(surface, settings),
+              alphas = surface_map(surface, settings, &Surface::lobe_parameter);
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 128; ++x) {
       ASSERT_EQ(alphas.at(x, y)[0], normals.at(x, y)[2] == 1.0F ? 0.2F : 0.05F) << x << ", " << y;

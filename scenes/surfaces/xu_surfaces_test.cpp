@@ -68,7 +68,7 @@ TEST(Pillow, IsClosedAndUnfoldsWithoutOverlap) {
 
 TEST(Pillow, HasTwoThreadsOfDifferentGloss) {
   const Surface& surface = find_surface(all_surfaces(), "pillow");
-  const Image lobes = surface_lobe_parameter(surface, surface_settings(surface, {}));
+  const Image lobes = surface_map(surface, surface_settings(surface, {}), &Surface::lobe_parameter);
   const auto glossy = std::ranges::count_if(lobes.texels, [](float exponent) { return exponent > 55.0F; });
   const double share = static_cast<double>(glossy) / static_cast<double>(lobes.texels.size());
   EXPECT_GT(share, 0.2);
@@ -92,7 +92,7 @@ TEST(Checker, HasTwoBrdfsInEqualSharesAndNoRelief) {
   Surface surface = find_surface(all_surfaces(), "checker");
   SurfaceSettings settings = surface_settings(surface, {{"squares", "4"}});
   settings.resolution = 64;
-  const Image lobes = surface_lobe_parameter(surface, settings);
+  const Image lobes = surface_map(surface, settings, &Surface::lobe_parameter);
   std::map<float, int> counts;
   for (const float exponent : lobes.texels) ++counts[exponent];
   EXPECT_EQ(counts, (std::map<float, int>{{8.0F, 2048}, {800.0F, 2048}}));
@@ -106,7 +106,8 @@ TEST(Studs, HasMetalWhereItIsRaised) {
   Surface surface = find_surface(all_surfaces(), "studs");
   SurfaceSettings settings = surface_settings(surface, {{"count", "6"}});
   settings.resolution = 128;
-  const Image normals = surface_normals(surface, settings), lobes = surface_lobe_parameter(surface, settings);
+  const Image normals = surface_normals(surface, settings),
+              lobes = surface_map(surface, settings, &Surface::lobe_parameter);
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 128; ++x) {
       ASSERT_TRUE(normals.at(x, y)[2] == 1.0F || lobes.at(x, y)[0] > 23.9F);
@@ -134,7 +135,7 @@ TEST(CastMetal, HasStainsOfTheSizeThatThePaperGives) {
   const Surface& surface = find_surface(all_surfaces(), "cast_metal");
   const SurfaceSettings settings = surface_settings(surface, {});
   EXPECT_EQ(settings.resolution, 2048);
-  const Image stains = surface_specular(surface, settings);
+  const Image stains = surface_map(surface, settings, &Surface::specular);
   EXPECT_EQ(stains.width, 671);
   EXPECT_EQ(stains.height, 457);
   EXPECT_EQ(surface.map_tiling(settings), glm::vec2(4.0F, 6.0F));

@@ -86,10 +86,10 @@ Material surface_material(const SurfaceContent& content) {
   const auto lay = [&](std::optional<TextureMap>& map, Image image) {
     if (!image.empty()) map = make_map(surface.name, computed(std::move(image)), uv);
   };
-  lay(material.base_color_map, surface_base_color(surface, settings));
-  lay(material.specular_map, surface_specular(surface, settings));
+  lay(material.base_color_map, surface_map(surface, settings, &Surface::base_color));
+  lay(material.specular_map, surface_map(surface, settings, &Surface::specular));
   if (material.specular_map) material.dielectric_specular = glm::vec3(1.0F);
-  lay(material.lobe_parameter_map, surface_lobe_parameter(surface, settings));
+  lay(material.lobe_parameter_map, surface_map(surface, settings, &Surface::lobe_parameter));
   if (surface.lobes != nullptr) material.lobes = surface.lobes(settings);
   if (has_own_lobes(material)) material.brdf.distribution = surface.distribution;
   return material;
@@ -121,20 +121,16 @@ Model load_content(const DressedModel& content) {
   return model;
 }
 
-TextureMap load_layer(const NormalFile& file, double /*strength*/, std::vector<std::string>& warnings) {
-  return make_map(file, warnings);
-}
-
-TextureMap load_layer(const SurfaceContent& content, double strength, std::vector<std::string>& /*warnings*/) {
-  Image normals = surface_normals(*content.surface, content.settings);
-  scale_slopes(normals, strength);
-  return make_map(content.surface->name, computed(std::move(normals)));
-}
-
 TextureMap load_layer(const LayerSettings& settings, std::vector<std::string>& warnings) {
-  const auto load = [&](const auto& content) { return load_layer(content, settings.strength, warnings); };
-  TextureMap map = std::visit(load, settings.content);
-  map.coordinates.transform = glm::mat3x2{settings.uv.x, 0.0F, 0.0F, settings.uv.y, 0.0F, 0.0F};
+  TextureMap map;
+  if (const auto* file = std::get_if<NormalFile>(&settings.content)) {
+    map = make_map(*file, warnings, settings.uv);
+  } else {
+    const auto& [surface, surface_settings] = std::get<SurfaceContent>(settings.content);
+    Image normals = surface_normals(*surface, surface_settings);
+    scale_slopes(normals, settings.strength);
+    map = make_map(surface->name, computed(std::move(normals)), settings.uv);
+  }
   return map;
 }
 
@@ -221,51 +217,45 @@ Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution 
   }
 }
 
-// The loaded maps of MapSettings, each over a whole material; shared by all materials.
-struct LaidMaps {
-  std::optional<TextureMap> roughness, lobe_parameter, specular, diffuse, normals, normal_kappa;
-};
-
-LaidMaps load_maps(const PartSettings& settings, std::vector<std::string>& warnings) {
-  const auto load = [&](const std::optional<MapFile>& from, const auto& read) -> std::optional<TextureMap> {
-    if (!from) return std::nullopt;
-    return make_map(from->file, MapTexels::packed(read(from->file)), from->uv.value_or(settings.tiling));
+// Lays the maps over each material; all share their texels.
+void lay_maps(const PartSettings& settings, Model& model) {
+  const MapSettings& maps = settings.maps;
+  const auto lay = [&](const std::optional<MapFile>& from, const auto& read, const auto& lay_over) {
+    if (!from) return;
+    const TextureMap map =
+        make_map(from->file, MapTexels::packed(read(from->file)), from->uv.value_or(settings.tiling));
+    for (Material& material : model.materials) lay_over(map, material);
   };
-  const NormalDistribution distribution = settings.brdf.distribution.value_or(NormalDistribution::ggx);
-  std::optional<TextureMap> normals;
-  if (const auto& laid = settings.maps.normals)
-    normals = make_map(laid->file, warnings, laid->uv.value_or(settings.tiling));
-  const auto read_colors = [](const auto& file) { return read_image(file, Transfer::srgb); };
-  return {load(settings.maps.roughness, [](const auto& file) { return to_rgb(read_image(file, Transfer::linear)); }),
-          load(settings.maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution); }),
-          load(settings.maps.specular, [&](const auto& file) { return to_rgb(read_colors(file)); }),
-          load(settings.maps.diffuse, [&](const auto& file) { return to_rgba(read_colors(file)); }),
-          std::move(normals),
-          load(settings.maps.normal_kappa,
-               [](const auto& file) { return read_lobe_parameter(file, NormalDistribution::vmf); })};
-}
-
-void lay(const LaidMaps& maps, const BrdfSettings& settings, Material& material) {
-  if (maps.specular) {
+  const auto read_rgb = [](const auto& file) { return to_rgb(read_image(file, Transfer::srgb)); };
+  lay(maps.specular, read_rgb, [&](const TextureMap& map, Material& material) {
     material.metallic_roughness_map.reset();
-    material.specular_map = maps.specular;
-    material.dielectric_specular = settings.specular.value_or(glm::vec3(1.0F));
+    material.specular_map = map;
+    material.dielectric_specular = settings.brdf.specular.value_or(glm::vec3(1.0F));
     material.metallic = 0.0F;
+  });
+  if (maps.normals) {
+    const TextureMap map = make_map(*maps.normals, model.warnings, maps.normals->uv.value_or(settings.tiling));
+    for (Material& material : model.materials) material.normal_map = map;
   }
-  if (maps.normals) material.normal_map = maps.normals;
-  if (maps.lobe_parameter) material.lobe_parameter_map = maps.lobe_parameter;
-  if (maps.roughness) {
+  const NormalDistribution distribution = settings.brdf.distribution.value_or(NormalDistribution::ggx);
+  lay(
+      maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution); },
+      [](const TextureMap& map, Material& material) { material.lobe_parameter_map = map; });
+  const auto read_roughness = [](const auto& file) { return to_rgb(read_image(file, Transfer::linear)); };
+  lay(maps.roughness, read_roughness, [](const TextureMap& map, Material& material) {
     material.lobes.clear();
     material.lobe_parameter_map.reset();
-    material.metallic_roughness_map = maps.roughness;
-    material.metallic_roughness_map->image =
-        MapTexels::packed(with_metallic(maps.roughness->image.decoded(), material.metallic));
-  }
-  if (maps.normal_kappa) spread_normals(*maps.normal_kappa, material);
-  if (maps.diffuse) {
-    material.base_color_map = maps.diffuse;
-    material.base_color = {settings.base_color.value_or(glm::vec3(1.0F)), material.base_color.a};
-  }
+    material.metallic_roughness_map = map;
+    material.metallic_roughness_map->image = MapTexels::packed(with_metallic(map.image.decoded(), material.metallic));
+  });
+  lay(
+      maps.normal_kappa, [](const auto& file) { return read_lobe_parameter(file, NormalDistribution::vmf); },
+      spread_normals);
+  const auto read_rgba = [](const auto& file) { return to_rgba(read_image(file, Transfer::srgb)); };
+  lay(maps.diffuse, read_rgba, [&](const TextureMap& map, Material& material) {
+    material.base_color_map = map;
+    material.base_color = {settings.brdf.base_color.value_or(glm::vec3(1.0F)), material.base_color.a};
+  });
 }
 
 std::optional<ClearCoat> load_coat(const CoatSettings& settings, std::vector<std::string>& warnings) {
@@ -323,53 +313,42 @@ void lay_patches(const PartSettings& settings, Model& model) {
   model.meshes = std::move(meshes);
 }
 
-/// A placement's turn, and all of it.
-struct Placed {
-  explicit Placed(const Placement& placement) {
-    glm::dmat4 turn{1.0};
-    for (int axis = 2; axis >= 0; --axis) {  // the last factor turns first
-      glm::dvec3 about{0.0};
-      about[axis] = 1.0;
-      turn = glm::rotate(turn, placement.rotation[axis], about);
-    }
-    rotation = glm::dmat3(turn);
-    scale = placement.scale;
-    translation = placement.translation;
-  }
-  [[nodiscard]] glm::vec3 point(const glm::vec3& at) const {
-    return glm::vec3(rotation * (scale * glm::dvec3(at)) + translation);
-  }
-  [[nodiscard]] glm::vec3 direction(const glm::vec3& along) const { return glm::vec3(rotation * glm::dvec3(along)); }
-
-  glm::dmat3 rotation;
-  double scale;
-  glm::dvec3 translation;
-};
-
 /// Moves a model with its lights and its camera, whose strengths and angles stay.
 void place(const Placement& placement, Model& model) {
-  const Placed placed(placement);
+  glm::dmat4 turn{1.0};
+  for (int axis = 2; axis >= 0; --axis) {  // the last factor turns first
+    glm::dvec3 about{0.0};
+    about[axis] = 1.0;
+    turn = glm::rotate(turn, placement.rotation[axis], about);
+  }
+  const glm::dmat3 rotation(turn);
+  const auto move = [&](glm::vec3& point) {
+    point = glm::vec3(rotation * (placement.scale * glm::dvec3(point)) + placement.translation);
+  };
+  const auto turned = [&](const glm::vec3& direction) { return glm::vec3(rotation * glm::dvec3(direction)); };
   for (Mesh& mesh : model.meshes) {
     for (Vertex& vertex : mesh.vertices) {
-      vertex.position = placed.point(vertex.position);
-      vertex.normal = placed.direction(vertex.normal);
-      vertex.tangent = {placed.direction(glm::vec3(vertex.tangent)), vertex.tangent.w};
+      move(vertex.position);
+      vertex.normal = turned(vertex.normal);
+      vertex.tangent = {turned(glm::vec3(vertex.tangent)), vertex.tangent.w};
     }
   }
   for (Light& light : model.lights) {
-    if (auto* point = std::get_if<PointLight>(&light)) point->position = placed.point(point->position);
+    if (auto* point = std::get_if<PointLight>(&light)) move(point->position);
     if (auto* directional = std::get_if<DirectionalLight>(&light)) {
-      directional->direction = placed.direction(directional->direction);
+      directional->direction = turned(directional->direction);
     }
     if (auto* spot = std::get_if<SpotLight>(&light)) {
-      spot->point.position = placed.point(spot->point.position);
-      spot->direction = placed.direction(spot->direction);
+      move(spot->point.position);
+      spot->direction = turned(spot->direction);
     }
   }
   if (!model.camera) return;
   glm::mat4& world = model.camera->world;
-  for (int axis = 0; axis < 3; ++axis) world[axis] = {placed.direction(glm::vec3(world[axis])), 0.0F};
-  world[3] = {placed.point(glm::vec3(world[3])), 1.0F};
+  for (int axis = 0; axis < 3; ++axis) world[axis] = {turned(glm::vec3(world[axis])), 0.0F};
+  glm::vec3 eye(world[3]);
+  move(eye);
+  world[3] = {eye, 1.0F};
 }
 
 void add_name(const std::string& part, std::string& name) {
@@ -396,7 +375,6 @@ Model load_part(const PartSettings& settings) {
   Model model = std::visit([](const auto& content) { return load_content(content); }, settings.content);
   std::optional<TextureMap> layer;
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
-  const LaidMaps maps = load_maps(settings, model.warnings);
   for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);
   if (settings.coat) {
     const std::optional<ClearCoat> coat = load_coat(*settings.coat, model.warnings);
@@ -406,11 +384,13 @@ Model load_part(const PartSettings& settings) {
   for (Material& material : model.materials) {
     tile(settings.tiling, material);
     material.layer_map = layer;
-    lay(maps, settings.brdf, material);
+  }
+  lay_maps(settings, model);
+  for (Material& material : model.materials) {
     settle_anisotropy(material);
     add_name(settings.name, material.name);
   }
-  if (settings.brdf.base_color || maps.diffuse) whiten_vertices(model);
+  if (settings.brdf.base_color || settings.maps.diffuse) whiten_vertices(model);
   for (Mesh& mesh : model.meshes) add_name(settings.name, mesh.name);
   place(settings.placement, model);
   return model;

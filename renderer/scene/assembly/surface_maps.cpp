@@ -66,54 +66,55 @@ NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scal
   return map;
 }
 
-// The number of texels with a unit vector, directly and as an encoding c of 2 c - 1. Texels without a direction (zero,
-// not finite) are ignored.
-struct UnitCounts {
-  std::size_t texels = 0, as_stored = 0, as_encoded = 0;
-};
-
-UnitCounts count_unit_vectors(const Image& stored) {
-  constexpr double tolerance = 0.02;  // of a length: half floats and bytes that were decoded stay within
-  UnitCounts counts;
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      const auto in = stored.at(x, y);
-      const glm::dvec3 v(in[0], in[1], in[2]);
-      const double length = glm::length(v);
-      if (!std::isfinite(length) || length < 1e-3) continue;
-      ++counts.texels;
-      if (std::abs(length - 1.0) < tolerance) ++counts.as_stored;
-      if (std::abs(glm::length(2.0 * v - 1.0) - 1.0) < tolerance) ++counts.as_encoded;
-    }
-  }
-  return counts;
-}
-
-// Most texels must be unit vectors.
+// Most texels must be unit vectors. Those without a direction (zero, not finite) do not count.
 void require_unit_vectors(const Image& stored) {
-  const UnitCounts counts = count_unit_vectors(stored);
-  if (2 * counts.as_stored < counts.texels && 2 * counts.as_encoded >= counts.texels) {
+  constexpr double tolerance = 0.02;  // of a length: half floats and bytes that were decoded stay within
+  std::size_t texels = 0, as_stored = 0, as_encoded = 0;
+  for (std::size_t i = 0; i < stored.texel_count(); ++i) {
+    const float* const in = &stored.texels[i * static_cast<std::size_t>(stored.channels)];
+    const glm::dvec3 v(in[0], in[1], in[2]);
+    const double length = glm::length(v);
+    if (!std::isfinite(length) || length < 1e-3) continue;
+    ++texels;
+    if (std::abs(length - 1.0) < tolerance) ++as_stored;
+    if (std::abs(glm::length(2.0 * v - 1.0) - 1.0) < tolerance) ++as_encoded;
+  }
+  if (2 * as_stored >= texels) return;
+  if (2 * as_encoded >= texels) {
     throw Error(ErrorKind::usage, {},
                 "its values are normals encoded as 0 to 1, but an EXR must store x, y, z of -1 to 1",
                 "store 2 c - 1, or give the map as PNG");
   }
-  if (2 * counts.as_stored < counts.texels) {
-    throw Error(
-        ErrorKind::usage, {},
-        fmt::format("{} of {} texels do not contain a unit vector", counts.texels - counts.as_stored, counts.texels),
-        "store unit normals, x, y, z of -1 to 1 in the first three channels");
+  throw Error(ErrorKind::usage, {},
+              fmt::format("{} of {} texels do not contain a unit vector", texels - as_stored, texels),
+              "store unit normals, x, y, z of -1 to 1 in the first three channels");
+}
+
+// Throws Error (usage) that names the first texel whose first channel is not `valid`.
+template <class Valid>
+void require_values(const Image& stored, const Valid& valid, const std::string& fault, const std::string& hint) {
+  for (int y = 0; y < stored.height; ++y) {
+    for (int x = 0; x < stored.width; ++x) {
+      const float value = stored.at(x, y)[0];
+      if (valid(value)) continue;
+      throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y), fmt::format("contains {}, {}", value, fault),
+                  hint);
+    }
   }
 }
 
-void require_heights(const Image& stored) {
+// A map whose texels `decode` (stored texel, texel) changes, from 1.
+template <class Decode>
+Image decoded(const Image& stored, int channels, const Decode& decode) {
+  Image map(stored.width, stored.height, channels, 1.0F);
   for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      if (std::isfinite(stored.at(x, y)[0])) continue;
-      throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
-                  fmt::format("contains {}, which is not a height", stored.at(x, y)[0]),
-                  "store finite heights in the first channel");
-    }
+    for (int x = 0; x < stored.width; ++x) decode(stored.at(x, y), map.at(x, y));
   }
+  return map;
+}
+
+Image first_channel(const Image& stored) {
+  return decoded(stored, 1, [](const auto& in, const auto& out) { out[0] = in[0]; });
 }
 
 // A row or column from -1 to `size`, within the map. A mirrored map repeats its border texel.
@@ -135,9 +136,7 @@ std::pair<double, double> row_weights(SlopeFilter filter) {
 }
 
 MapTexels stored_heights(const Image& stored, double scale, const HeightSettings& settings) {
-  Image heights(stored.width, stored.height, 1);
-  for (std::size_t i = 0; i < heights.texel_count(); ++i)
-    heights.texels[i] = stored.texels[i * static_cast<std::size_t>(stored.channels)];
+  const Image heights = first_channel(stored);
   const auto decode = [scale, settings](const Image& again) { return normals_of_heights(again, scale, settings); };
   return MapTexels::packed(decode(heights), heights, decode);
 }
@@ -210,7 +209,9 @@ void scale_slopes(Image& normals, double strength) {
 }
 
 Image normals_of_heights(const Image& stored, double scale, const HeightSettings& settings) {
-  require_heights(stored);
+  require_values(
+      stored, [](float height) { return std::isfinite(height); }, "which is not a height",
+      "store finite heights in the first channel");
   const auto height = [&](int x, int y) {
     return static_cast<double>(
         stored.at(neighbour(x, stored.width, settings.wrap[0]), neighbour(y, stored.height, settings.wrap[1]))[0]);
@@ -255,86 +256,57 @@ std::span<const float> texel_under(const Image& map, int x, int y, int width, in
 
 Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor) {
   const bool color = stored.channels >= 3;
-  Image map(stored.width, stored.height, 2);
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      const auto in = stored.at(x, y);
-      map.at(x, y)[0] = roughness_factor * clamped_to_unit(in[color ? 1 : 0]);
-      map.at(x, y)[1] = metallic_factor * clamped_to_unit(in[color ? 2 : 0]);
-    }
-  }
-  return map;
+  return decoded(stored, 2, [&](const auto& in, const auto& out) {
+    out[0] = roughness_factor * clamped_to_unit(in[color ? 1 : 0]);
+    out[1] = metallic_factor * clamped_to_unit(in[color ? 2 : 0]);
+  });
 }
 
 Image decode_factor(const Image& stored, int channel, float factor) {
   const auto from = static_cast<std::size_t>(stored.channels >= 3 ? channel : 0);
-  Image map(stored.width, stored.height, 1);
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) map.at(x, y)[0] = factor * clamped_to_unit(stored.at(x, y)[from]);
-  }
-  return map;
+  return decoded(stored, 1, [&](const auto& in, const auto& out) { out[0] = factor * clamped_to_unit(in[from]); });
 }
 
 Image decode_lobe_parameter(const Image& stored, double least, double most) {
   // In 32 bits like the map, because the double 0.001 is larger than the float.
   const auto lowest = static_cast<float>(least), highest = static_cast<float>(most);
-  Image map(stored.width, stored.height, 1);
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      const float value = stored.at(x, y)[0];
-      if (!(value >= lowest && value <= highest)) {
-        throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y),
-                    fmt::format("contains {}, not within {} to {}", value, least, most),
-                    "store the lobe parameter itself, as 32-bit floats");
-      }
-      map.at(x, y)[0] = value;
-    }
-  }
-  return map;
+  require_values(
+      stored, [&](float value) { return value >= lowest && value <= highest; },
+      fmt::format("not within {} to {}", least, most), "store the lobe parameter itself, as 32-bit floats");
+  return first_channel(stored);
 }
 
 std::vector<Image> decode_indices(const Image& stored, std::size_t count) {
   constexpr float rounding = 1e-3F;  // of 8 bits as floats from 0 to 1
+  require_values(
+      stored,
+      [&](float value) {
+        const float whole = std::round(value);
+        return std::abs(value - whole) <= rounding && whole >= 0.0F && whole < static_cast<float>(count);
+      },
+      fmt::format("which is not an index of the {} materials", count),
+      fmt::format("store whole numbers from 0 to {} in the red channel", count - 1));
+  const Image indices = first_channel(stored);
   std::vector<Image> shares(count, Image(stored.width, stored.height, 1));
-  for (std::size_t i = 0; i < stored.texel_count(); ++i) {
-    const float value = stored.texels[i * static_cast<std::size_t>(stored.channels)];
-    const float whole = std::round(value);
-    if (!(std::abs(value - whole) <= rounding && whole >= 0.0F && whole < static_cast<float>(count))) {
-      const auto width = static_cast<std::size_t>(stored.width);
-      throw Error(ErrorKind::usage, "map of indices",
-                  fmt::format("texel ({}, {}) contains {}, which is not an index of the {} materials", i % width,
-                              i / width, value, count),
-                  fmt::format("store whole numbers from 0 to {} in the red channel", count - 1));
-    }
-    shares[static_cast<std::size_t>(whole)].texels[i] = 1.0F;
-  }
+  for (std::size_t i = 0; i < indices.texels.size(); ++i)
+    shares[static_cast<std::size_t>(std::round(indices.texels[i]))].texels[i] = 1.0F;
   return shares;
 }
 
 Image to_rgb(const Image& stored) {
   const bool color = stored.channels >= 3;
-  Image map(stored.width, stored.height, 3);
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[c] = clamped_to_unit(stored.at(x, y)[color ? c : 0]);
-    }
-  }
-  return map;
+  return decoded(stored, 3, [&](const auto& in, const auto& out) {
+    for (std::size_t c = 0; c < 3; ++c) out[c] = clamped_to_unit(in[color ? c : 0]);
+  });
 }
 
 Image to_rgba(const Image& stored) {
   const bool color = stored.channels >= 3;
   const bool alpha = stored.channels % 2 == 0;
-  Image map(stored.width, stored.height, 4, 1.0F);
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      const auto in = stored.at(x, y);
-      const auto out = map.at(x, y);
-      for (std::size_t c = 0; c < 3; ++c) out[c] = clamped_to_unit(in[color ? c : 0]);
-      if (alpha) out[3] = clamped_to_unit(in.back());
-    }
-  }
-  return map;
+  return decoded(stored, 4, [&](const auto& in, const auto& out) {
+    for (std::size_t c = 0; c < 3; ++c) out[c] = clamped_to_unit(in[color ? c : 0]);
+    if (alpha) out[3] = clamped_to_unit(in.back());
+  });
 }
 
 Lobe convolved(const Lobe& base, double kappa) {

@@ -44,14 +44,12 @@ constexpr std::array<Word<Wrap>, 2> height_wraps{{{Wrap::repeat, "repeat"}, {Wra
 
 // A file of heights. Its scale is required, because heights range over four powers of ten.
 NormalFile read_heights(const TomlTable& table, const std::filesystem::path& folder) {
-  const auto file = read_path(table, "file", folder);
-  if (!file) refuse_missing(table, "file");
-  const auto scale = table.number("scale", slope_factors);
-  if (!scale) refuse_missing(table, "scale");
   HeightSettings heights;
   assign(heights.filter, read_word(table, "slope_filter", slope_filters));
   if (const auto wrap = read_word(table, "wrap", height_wraps)) heights.wrap = {*wrap, *wrap};
-  return {.path = *file, .scale = *scale, .heights = heights};
+  return {.path = required(table, "file", read_path(table, "file", folder)),
+          .scale = required(table, "scale", table.number("scale", slope_factors)),
+          .heights = heights};
 }
 
 // The keys `normal_map` and `height_map`.
@@ -124,13 +122,12 @@ std::optional<float> read_lobe(const TomlTable& table, std::optional<NormalDistr
 }
 
 glm::vec3 read_axis(const TomlTable& table) {
-  const auto axis = read_direction(table, "axis");
-  if (!axis) refuse_missing(table, "axis");
-  if (axis->z < lowest_axis) {
+  const glm::dvec3 axis = required(table, "axis", read_direction(table, "axis"));
+  if (axis.z < lowest_axis) {
     throw table.error_at("axis", "does not rise above the horizon",
                          "its z is along the normal: [0.7, 0, 0.7] leans by 45 degrees");
   }
-  return glm::vec3{*axis};
+  return glm::vec3{axis};
 }
 
 /// The lobes of [[brdf.lobe]]: all with weights, or none, which gives equal weights that sum to one.
@@ -143,14 +140,14 @@ std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDis
                         "leave out the weakest");
   }
   for (const TomlTable& table : tables) {
-    const auto parameter = read_lobe(table, distribution);
-    if (!parameter) refuse_missing(table, lobe_key(distribution.value_or(NormalDistribution::ggx)));
+    const float parameter =
+        required(table, lobe_key(distribution.value_or(NormalDistribution::ggx)), read_lobe(table, distribution));
     if (table.has("weight") != tables.front().has("weight")) {
       throw table.error_at("weight", "is given for some lobes only", "give every lobe a weight, or none");
     }
     const double equal = 1.0 / static_cast<double>(tables.size());
     lobes.push_back(
-        {read_axis(table), *parameter, static_cast<float>(table.number("weight", lobe_weight).value_or(equal))});
+        {read_axis(table), parameter, static_cast<float>(table.number("weight", lobe_weight).value_or(equal))});
   }
   return lobes;
 }
@@ -192,12 +189,10 @@ void read_two_alphas(const TomlTable& table, BrdfSettings& brdf) {
   const auto x = table.number("alpha_x", lobe_range(NormalDistribution::ggx));
   const auto y = table.number("alpha_y", lobe_range(NormalDistribution::ggx));
   if (!x && !y) return;
-  if (!x) refuse_missing(table, "alpha_x");
-  if (!y) refuse_missing(table, "alpha_y");
   for (const char* other : {"alpha", "anisotropy"}) {
     if (table.has(other)) throw table.error_at(other, "excludes `alpha_x` and `alpha_y`", "give one of the two forms");
   }
-  const double along = std::max(*x, *y), across = std::min(*x, *y);
+  const auto [across, along] = std::minmax({required(table, "alpha_x", x), required(table, "alpha_y", y)});
   Anisotropy stretch = brdf.anisotropy.value_or(Anisotropy{});
   if (along > across) stretch.strength = static_cast<float>(std::sqrt((along - across) / (1.0 - across)));
   if (*y > *x) stretch.rotation += static_cast<float>(0.5 * std::numbers::pi);
@@ -240,23 +235,24 @@ BrdfSettings read_own_brdf(const TomlTable& table, const BrdfSettings& common) {
 std::optional<MapFile> read_map(const TomlTable& maps, std::string_view key, const std::filesystem::path& folder) {
   const auto table = maps.table(key, {"file", "uv"});
   if (!table) return std::nullopt;
-  const auto file = read_path(*table, "file", folder);
-  if (!file) refuse_missing(*table, "file");
-  return MapFile{*file, read_pair(*table, "uv", repeats)};
+  return MapFile{required(*table, "file", read_path(*table, "file", folder)), read_pair(*table, "uv", repeats)};
 }
 
 // The normals that replace those of all materials: `normal` or `height`.
-std::optional<LaidNormals> read_laid_normals(const TomlTable& maps, const std::filesystem::path& folder) {
+std::optional<NormalFile> read_laid_normals(const TomlTable& maps, const std::filesystem::path& folder) {
   const auto heights = maps.table("height", {"file", "uv", "scale", "slope_filter", "wrap"});
   const auto normals = maps.table("normal", {"file", "uv", "scale", "channels"});
   if (heights && normals) throw maps.error_at("height", "excludes `normal`", "give one of the two");
-  if (heights) return LaidNormals{read_heights(*heights, folder), read_pair(*heights, "uv", repeats)};
-  if (!normals) return std::nullopt;
-  const auto file = read_path(*normals, "file", folder);
-  if (!file) refuse_missing(*normals, "file");
-  LaidNormals laid{{.path = *file}, read_pair(*normals, "uv", repeats)};
-  assign(laid.file.scale, normals->number("scale", slope_factors));
-  assign(laid.file.channels, read_word(*normals, "channels", normal_channels));
+  if (!heights && !normals) return std::nullopt;
+  NormalFile laid;
+  if (heights) {
+    laid = read_heights(*heights, folder);
+  } else {
+    laid.path = required(*normals, "file", read_path(*normals, "file", folder));
+    assign(laid.scale, normals->number("scale", slope_factors));
+    assign(laid.channels, read_word(*normals, "channels", normal_channels));
+  }
+  laid.uv = read_pair(heights ? *heights : *normals, "uv", repeats);
   return laid;
 }
 
@@ -307,9 +303,7 @@ std::map<std::string, std::string> read_parameters(const TomlTable& table, const
 SurfaceContent read_surface(const TomlTable& table, std::span<const Surface> surfaces) {
   std::vector<std::string> names;
   for (const Surface& surface : surfaces) names.push_back(surface.name);
-  const auto index = table.choice("name", names);
-  if (!index) refuse_missing(table, "name");
-  const Surface& surface = surfaces[*index];
+  const Surface& surface = surfaces[required(table, "name", table.choice("name", names))];
   SurfaceSettings settings = surface_settings(surface, read_parameters(table, surface.parameters));
   assign(settings.resolution, table.whole_number("resolution", {1.0, largest_surface_resolution}));
   assign(settings.seed, table.whole_number("seed", seed_range));

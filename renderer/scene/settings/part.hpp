@@ -44,6 +44,7 @@ struct NormalFile {
   double scale = 1.0;  ///< factor on slopes; for heights, the height of value 1 in widths of the map
   NormalChannels channels = NormalChannels::xyz;
   std::optional<HeightSettings> heights{};  ///< none: the file stores normals
+  std::optional<glm::vec2> uv{};            ///< of [maps], as MapFile's
 };
 
 /// A model file: the first of `candidates` that exists.
@@ -93,18 +94,12 @@ struct MapFile {
   std::optional<glm::vec2> uv;  ///< repetitions along u and v; none: those of [tiling]
 };
 
-/// Normals from a file that replace the materials' own.
-struct LaidNormals {
-  NormalFile file;
-  std::optional<glm::vec2> uv;  ///< as MapFile's
-};
-
 /// Maps of [maps] for all materials.
 struct MapSettings {
   std::optional<MapFile> roughness, lobe_parameter, specular, diffuse;  ///< at most one of the first two
-  std::optional<LaidNormals> normals;
-  std::optional<MapFile> normal_kappa;  ///< concentration of the normals within a texel
-  std::optional<MapFile> material;      ///< indices of the patches, if there are several
+  std::optional<NormalFile> normals;                                    ///< replace the materials' own
+  std::optional<MapFile> normal_kappa;                                  ///< concentration of the normals within a texel
+  std::optional<MapFile> material;  ///< indices of the patches, if there are several
 };
 
 /// A clear coat that replaces the materials' coats; weight 0 removes them.

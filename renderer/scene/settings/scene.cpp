@@ -46,24 +46,14 @@ void read_sky(const TomlTable& table, SkySettings& sky) {
   }
 }
 
-Environment load_first(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
+Environment unscaled(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
+  if (settings.kind == EnvironmentKind::constant) return constant_environment(settings.color);
+  if (settings.kind == EnvironmentKind::sky) return sky_environment(settings.sky);
   std::error_code ignored;  // opening the file will fail
   for (const auto& candidate : settings.candidates) {
     if (std::filesystem::exists(candidate, ignored)) return load_environment(candidate, warnings);
   }
   throw missing_candidates(settings.candidates, "no such environment", settings.package, "check the path");
-}
-
-Environment unscaled(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
-  switch (settings.kind) {
-    case EnvironmentKind::constant:
-      return constant_environment(settings.color);
-    case EnvironmentKind::sky:
-      return sky_environment(settings.sky);
-    case EnvironmentKind::file:
-      break;
-  }
-  return load_first(settings, warnings);
 }
 
 constexpr NumberRange intensity{0.0, 1e12};       // candela or lux
@@ -156,40 +146,36 @@ AreaLight read_area_light(const TomlTable& table, AreaShape shape, const glm::dv
 }
 
 Light read_light(const TomlTable& table) {
-  const auto type = table.choice("type", light_types);
-  if (!type) refuse_missing(table, "type");
-  reject_keys_of_others(table, *type);
+  const std::size_t type = required(table, "type", table.choice("type", light_types));
+  reject_keys_of_others(table, type);
   const double strength = table.number("intensity", intensity).value_or(1.0);
   const glm::vec3 power = read_color(table, "color").value_or(glm::vec3{1.0F}) * static_cast<float>(strength);
   const auto towards = read_direction(table, "direction");
-  if (*type != 0 && !towards) refuse_missing(table, "direction");
-  if (*type == 2) return DirectionalLight{glm::vec3{*towards}, power};
-  const auto position = read_vector(table, "position", coordinate_range);
-  if (!position) refuse_missing(table, "position");
-  if (*type > 2) {
-    AreaLight light = read_area_light(table, *type == 3 ? AreaShape::rectangle : AreaShape::disk, *towards);
-    light.position = glm::vec3{*position};
+  if (type != 0 && !towards) refuse_missing(table, "direction");
+  if (type == 2) return DirectionalLight{glm::vec3{*towards}, power};
+  const glm::vec3 position{required(table, "position", read_vector(table, "position", coordinate_range))};
+  if (type > 2) {
+    AreaLight light = read_area_light(table, type == 3 ? AreaShape::rectangle : AreaShape::disk, *towards);
+    light.position = position;
     light.intensity = power;
     return light;
   }
-  PointLight point{glm::vec3{*position}, power, std::nullopt};
+  PointLight point{position, power, std::nullopt};
   assign(point.range, table.number("range", length_range));
-  if (*type == 1) return read_spot(table, point, *towards);
+  if (type == 1) return read_spot(table, point, *towards);
   return point;
 }
 
 Camera read_placed_camera(const TomlTable& table) {
-  const auto position = read_vector(table, "position", coordinate_range),
-             target = read_vector(table, "target", coordinate_range);
-  if (!position) refuse_missing(table, "position");
-  if (!target) refuse_missing(table, "target");
-  if (glm::length(*position - *target) < 1e-9) {
+  const glm::dvec3 position = required(table, "position", read_vector(table, "position", coordinate_range));
+  const glm::dvec3 target = required(table, "target", read_vector(table, "target", coordinate_range));
+  const double distance = glm::length(position - target);
+  if (distance < 1e-9) {
     throw table.error_at("target", "equals the position of the camera", "move one of them");
   }
   Camera camera;
-  camera.world = look_at(*position, *target, read_direction(table, "up").value_or(glm::dvec3{0.0, 1.0, 0.0}));
+  camera.world = look_at(position, target, read_direction(table, "up").value_or(glm::dvec3{0.0, 1.0, 0.0}));
   camera.yfov = radians(table.number("yfov_degrees", field_of_view).value_or(34.4));
-  const double distance = glm::length(*position - *target);
   camera.znear = static_cast<float>(table.number("znear", length_range).value_or(0.01 * distance));
   const auto zfar = table.number("zfar", length_range);
   if (zfar && *zfar <= camera.znear) throw table.error_at("zfar", "must be beyond znear", "make it larger");
@@ -248,7 +234,7 @@ void set_rules(SceneSettings& settings) {
 
 Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings) {
   Environment environment = unscaled(settings, warnings);
-  environment.rotation = static_cast<float>(settings.rotation_degrees * std::numbers::pi / 180.0);
+  environment.rotation = radians(settings.rotation_degrees);
   if (settings.intensity == 1.0) return environment;
   Image scaled = *environment.radiance;
   for (float& value : scaled.texels) value = static_cast<float>(value * settings.intensity);

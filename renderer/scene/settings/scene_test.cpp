@@ -208,14 +208,14 @@ TEST(SceneSettings, HeightsAreReadWhereNormalsAre) {
   expect_heights(std::get<PlaneSettings>(part.content).normals.value());
   expect_heights(part.coat->normals.value());
   const std::string model = "[model]\nfile = \"a.gltf\"\n";
-  expect_heights(read(model + "[maps]\nheight = " + heights).parts[0].maps.normals.value().file);
-  const LaidNormals laid = read(model + "[maps.normal]\nfile = \"n.png\"\nuv = [2, 3]\nscale = 4\nchannels = \"xy\"")
-                               .parts[0]
-                               .maps.normals.value();
+  expect_heights(read(model + "[maps]\nheight = " + heights).parts[0].maps.normals.value());
+  const NormalFile laid = read(model + "[maps.normal]\nfile = \"n.png\"\nuv = [2, 3]\nscale = 4\nchannels = \"xy\"")
+                              .parts[0]
+                              .maps.normals.value();
   EXPECT_EQ(laid.uv, glm::vec2(2, 3));
-  EXPECT_EQ(laid.file.scale, 4.0);
-  EXPECT_EQ(laid.file.channels, NormalChannels::xy);
-  EXPECT_FALSE(laid.file.heights);
+  EXPECT_EQ(laid.scale, 4.0);
+  EXPECT_EQ(laid.channels, NormalChannels::xy);
+  EXPECT_FALSE(laid.heights);
   const PartSettings plain = read("[plane]\nheight_map = { file = \"h\", scale = 1 }").parts[0];
   EXPECT_EQ(std::get<PlaneSettings>(plain.content).normals->heights->filter, SlopeFilter::central);
   const PartSettings layered =

@@ -69,4 +69,11 @@ template <class Value, std::size_t count>
 [[noreturn]] void refuse_missing(const TomlTable& table, std::string_view key,
                                  std::string_view document = "docs/reference/scenes.md");
 
+/// The value of a required key. Throws as refuse_missing.
+template <class Value>
+[[nodiscard]] Value required(const TomlTable& table, std::string_view key, std::optional<Value> value) {
+  if (!value) refuse_missing(table, key);
+  return *std::move(value);
+}
+
 }  // namespace footprint

@@ -3,6 +3,7 @@
 It reads experiments and results.json, runs the program, formats numbers, tables and text, and has the Pareto front and
 the noise floors of claims.
 """
+import argparse
 import collections
 import json
 import math
@@ -29,6 +30,23 @@ FLOOR_SHARE = 3.0  # a reference has converged for a claim if its floor is under
 
 class Missing(Exception):
     """A result, method or figure that a page needs and the results lack."""
+
+
+# What the scripts' arguments have in common.
+ARGUMENTS = {
+    "results": {"type": pathlib.Path, "metavar": "RESULTS"}, "maps": {"type": pathlib.Path, "metavar": "MAPS"},
+    "--run": {"action": "store_true"}, "--quick": {"action": "store_true"},
+    "--footprint": {"default": PROGRAM, "metavar": "PROGRAM"}, "--svg": {"type": pathlib.Path, "metavar": "FILE"},
+    "--note": {"default": "", "metavar": "TEXT"},
+}
+
+
+def parser_of(documentation, *names):
+    """A parser of some ARGUMENTS, whose help is a script's documentation."""
+    parser = argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in names:
+        parser.add_argument(name, **ARGUMENTS[name])
+    return parser
 
 
 def reported(name, work):

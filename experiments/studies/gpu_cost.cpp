@@ -38,7 +38,7 @@ std::vector<WeighedTrips> weighed_trips(const PixelTrips& trips, const GpuScene:
   add([](FixedTrips& t) -> int& { return t.probes; }, trips.probes - 1);
   add([](FixedTrips& t) -> int& { return t.lobes; }, trips.lobes - 1);
   add([](FixedTrips& t) -> int& { return t.rounds; }, trips.rounds - 1);
-  for (std::size_t i = 0; i < light_kinds.size(); ++i)
+  for (std::size_t i = 0; i < light_types.size(); ++i)
     add([i](FixedTrips& t) -> int& { return t.lights.at(i); },
         static_cast<double>(lights.of.at(i)) - base.lights.at(i));
   return programs;

@@ -129,13 +129,13 @@ TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
 TEST(BlockBindings, AreThoseOfTheShaders) {
   const std::map<std::string, GLuint> expected{{"MaterialBlock", block_binding::material},
                                                {"MethodBlock", block_binding::method},
-                                               {"PointLights", light_kinds[light_kind::point].binding},
-                                               {"SpotLights", light_kinds[light_kind::spot].binding},
-                                               {"DirectionalLights", light_kinds[light_kind::directional].binding},
+                                               {"PointLights", light_types[light_type::point].binding},
+                                               {"SpotLights", light_types[light_type::spot].binding},
+                                               {"DirectionalLights", light_types[light_type::directional].binding},
                                                {"EnvironmentBlock", block_binding::environment},
                                                {"ShadowViews", block_binding::shadow_views},
-                                               {"AreaLights", light_kinds[light_kind::area].binding},
-                                               {"AreaPoints", light_kinds[light_kind::area_point].binding}};
+                                               {"AreaLights", light_types[light_type::area].binding},
+                                               {"AreaPoints", light_types[light_type::area_point].binding}};
   const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}, .lights = {0, 0, 0, 0, 1}},
                                          {.textures = {}, .scalars = {{"own", 1.0F}}});
   std::map<std::string, GLuint> found;

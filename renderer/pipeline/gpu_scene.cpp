@@ -119,7 +119,7 @@ bool maps_share_coordinates(const Material& m) {
 
 // A block without lights stores one dark light, because the shader's array has at least one element.
 gl::Buffer light_buffer(std::span<const glm::vec4> values) {
-  static constexpr std::array<glm::vec4, light_kinds[light_kind::area].vectors> dark{};
+  static constexpr std::array<glm::vec4, light_types[light_type::area].vectors> dark{};
   return gl::Buffer(std::as_bytes(values.empty() ? std::span<const glm::vec4>(dark) : values),
                     gl::Buffer::Content::changing);
 }
@@ -173,7 +173,7 @@ void add_shared_textures(const Material& material, const EffectSet& effects, Sha
 }
 
 // All lights of one kind must fit into one uniform block.
-void require_capacity(const gl::ContextInfo& context, const LightKind& kind, std::size_t lights,
+void require_capacity(const gl::ContextInfo& context, const LightType& kind, std::size_t lights,
                       const std::string& source) {
   const std::size_t most = static_cast<std::size_t>(context.max_uniform_block_bytes) / sizeof(glm::vec4) / kind.vectors;
   if (lights <= most) return;
@@ -342,9 +342,9 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
                    .area_by_lobes = blocks.area_by_lobes,
                    .points_alone = blocks.points_alone,
                    .shadow_maps = shadow_maps_ ? shadow_maps_->views().views.size() : 0};
-  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
-    light_counts_.of[i] = blocks.vectors[i].size() / light_kinds[i].vectors;
-    require_capacity(context, light_kinds[i], light_counts_.of[i], scene.source);
+  for (std::size_t i = 0; i < light_types.size(); ++i) {
+    light_counts_.of[i] = blocks.vectors[i].size() / light_types[i].vectors;
+    require_capacity(context, light_types[i], light_counts_.of[i], scene.source);
     light_buffers_[i] = light_buffer(blocks.vectors[i]);
     add_to_hash(content_.lights, std::as_bytes(std::span(blocks.vectors[i])));
   }
@@ -385,9 +385,9 @@ void GpuScene::update(const Scene& scene) {
   }
   if (visibility_ && content.geometry != content_.geometry) make_visibility(scene, no_progress, nullptr);
   const LightBlocks blocks = blocks_of(scene.lights);
-  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
+  for (std::size_t i = 0; i < light_types.size(); ++i) {
     const std::span<const glm::vec4> values = blocks.vectors[i];
-    require(values.size() == light_kinds[i].vectors * light_counts_.of[i], "lights");
+    require(values.size() == light_types[i].vectors * light_counts_.of[i], "lights");
     if (!values.empty()) light_buffers_[i].write(std::as_bytes(values));
     add_to_hash(content.lights, std::as_bytes(values));
   }
@@ -395,13 +395,13 @@ void GpuScene::update(const Scene& scene) {
 }
 
 void GpuScene::bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes) const {
-  PerLightKind<std::size_t> counts = light_counts_.of;
+  PerLightType<std::size_t> counts = light_counts_.of;
   if (area_by_lobes) {
-    counts[light_kind::area] = light_counts_.area_by_lobes;
-    counts[light_kind::area_point] = light_counts_.points_alone;
+    counts[light_type::area] = light_counts_.area_by_lobes;
+    counts[light_type::area_point] = light_counts_.points_alone;
   }
-  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
-    const LightKind& kind = light_kinds[i];
+  for (std::size_t i = 0; i < light_types.size(); ++i) {
+    const LightType& kind = light_types[i];
     if (!has(effects_, kind.effect)) continue;
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, kind.binding, light_buffers_[i].name());
     gl::api().ProgramUniform1i(program.name(), program.uniform(kind.counter), static_cast<GLint>(counts[i]));

@@ -158,7 +158,7 @@ class GpuScene {
   void bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes = false) const;
 
   struct LightCounts {
-    PerLightKind<std::size_t> of{};
+    PerLightType<std::size_t> of{};
     std::size_t area_by_lobes = 0, points_alone = 0;  ///< as in LightBlocks
     std::size_t shadow_maps = 0;
   };
@@ -174,7 +174,7 @@ class GpuScene {
   bool shared_coordinates_ = true;
   std::size_t shared_bytes_ = 0;
   std::vector<GpuBatch> batches_;
-  PerLightKind<gl::Buffer> light_buffers_;
+  PerLightType<gl::Buffer> light_buffers_;
   LightCounts light_counts_;
   std::size_t facet_lobes_ = 1;
   std::shared_ptr<GpuEnvironment> environment_;

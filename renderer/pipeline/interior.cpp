@@ -37,8 +37,8 @@ SampleGrid samples_of_reference(int spp, std::uint64_t seed) {
 ShaderVariant variant_of(const GpuScene& scene, bool orthographic, bool shadows) {
   EffectSet effects = scene.effects();
   effects.set(static_cast<std::size_t>(Effect::cast_shadow), shadows);
-  PerLightKind<std::size_t> lights = scene.light_counts().of;
-  lights[light_kind::area_point] = 0;
+  PerLightType<std::size_t> lights = scene.light_counts().of;
+  lights[light_type::area_point] = 0;
   return {.effects = effects,
           .brdf = scene.brdf(),
           .orthographic = orthographic,
@@ -216,8 +216,8 @@ Interior InteriorFinder::render(const View& view, const Tile& part, int spp, std
   const std::vector<Tile> tiles = tiles_in(part, tile_edge_);
   if (tiles.empty()) return out;
   const glm::ivec2 largest = tiles.front().size;
-  const PerLightKind<std::size_t>& counts = scene_->light_counts().of;
-  const std::size_t lights = shadows_ ? std::reduce(counts.begin(), counts.begin() + light_kind::area_point) : 0;
+  const PerLightType<std::size_t>& counts = scene_->light_counts().of;
+  const std::size_t lights = shadows_ ? std::reduce(counts.begin(), counts.begin() + light_type::area_point) : 0;
   fit(geometry_, largest * samples.grid);
   if (shadows_) fit(*shadows_, largest * samples.grid);
   if (result_.width() != largest.x || result_.height() != largest.y)

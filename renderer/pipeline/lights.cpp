@@ -23,24 +23,24 @@ struct LightAppender {
 
   [[nodiscard]] std::vector<glm::vec4>& of(std::size_t kind) const { return blocks.vectors.at(kind); }
 
-  void operator()(const PointLight& light) const { append(of(light_kind::point), light, first_map); }
+  void operator()(const PointLight& light) const { append(of(light_type::point), light, first_map); }
 
   void operator()(const SpotLight& light) const {
-    append(of(light_kind::spot), light.point, first_map);
-    of(light_kind::spot).emplace_back(light.direction, 0.0F);
+    append(of(light_type::spot), light.point, first_map);
+    of(light_type::spot).emplace_back(light.direction, 0.0F);
     // KHR_lights_punctual, "Inner and Outer Cone Angles": the same guard against equal angles.
     const float scale = 1.0F / std::max(0.001F, std::cos(light.inner_cone_angle) - std::cos(light.outer_cone_angle));
-    of(light_kind::spot).emplace_back(scale, -std::cos(light.outer_cone_angle) * scale, 0.0F, 0.0F);
+    of(light_type::spot).emplace_back(scale, -std::cos(light.outer_cone_angle) * scale, 0.0F, 0.0F);
   }
 
   void operator()(const DirectionalLight& light) const {
-    of(light_kind::directional).emplace_back(-light.direction, 0.0F);
-    of(light_kind::directional).emplace_back(light.illuminance, first_map);
+    of(light_type::directional).emplace_back(-light.direction, 0.0F);
+    of(light_type::directional).emplace_back(light.illuminance, first_map);
   }
 
   void operator()(const AreaLight& light) const {
-    std::vector<glm::vec4>&area = of(light_kind::area), &area_points = of(light_kind::area_point);
-    const auto number = static_cast<float>(area.size() / light_kinds[light_kind::area].vectors);
+    std::vector<glm::vec4>&area = of(light_type::area), &area_points = of(light_type::area_point);
+    const auto number = static_cast<float>(area.size() / light_types[light_type::area].vectors);
     area.emplace_back(light.position, light.area());
     area.emplace_back(light.across, light.half_size.x);
     area.emplace_back(light.up, light.half_size.y);

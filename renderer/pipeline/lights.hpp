@@ -15,27 +15,27 @@
 namespace footprint {
 
 /// The uniform blocks of lights in surface_lights.glsl and area_lights.glsl.
-struct LightKind {
+struct LightType {
   Effect effect;
   std::string_view name, shader_name, counter;
   std::size_t vectors;   ///< per light
   std::uint8_t binding;  ///< of the block
 };
-inline constexpr std::array<LightKind, 5> light_kinds{{
+inline constexpr std::array<LightType, 5> light_types{{
     {Effect::point_light, "point", "point_light", "point_light_count", 2, 2},
     {Effect::spot_light, "spot", "spot_light", "spot_light_count", 4, 3},
     {Effect::directional_light, "directional", "directional_light", "directional_light_count", 2, 4},
     {Effect::area_light, "area", "area_light", "area_light_count", 6, 7},
     {Effect::area_light, "points of area", "area_point", "area_point_count", 1, 8},
 }};
-/// Their places in light_kinds.
-namespace light_kind {
+/// Their places in light_types.
+namespace light_type {
 inline constexpr std::size_t point = 0, spot = 1, directional = 2, area = 3, area_point = 4;
 }
 
-/// A value for each of light_kinds.
+/// A value for each of light_types.
 template <class Value>
-using PerLightKind = std::array<Value, light_kinds.size()>;
+using PerLightType = std::array<Value, light_types.size()>;
 
 /// The lights of a scene by kind, in std140 layout.
 struct LightBlocks {
@@ -43,7 +43,7 @@ struct LightBlocks {
   /// offset. Directional: direction to the light, illuminance and shadow map. Area: AreaLight in area_lights.glsl,
   /// those with AreaIntegral::lobes first. Point of an area: position and number of its light, those of the last lights
   /// first.
-  PerLightKind<std::vector<glm::vec4>> vectors;
+  PerLightType<std::vector<glm::vec4>> vectors;
   std::size_t area_by_lobes = 0;  ///< lights with AreaIntegral::lobes
   std::size_t points_alone = 0;   ///< points of lights without
 };

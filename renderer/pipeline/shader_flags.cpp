@@ -103,7 +103,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
     {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},
     {"finest_coat", [](const Variant& v) { return v.finest_coat; }},
-    {"area_points", [](const Variant& v) { return has(v.effects, Effect::area_light) && v.lights[light_kind::area_point] > 0; }},
+    {"area_points", [](const Variant& v) { return has(v.effects, Effect::area_light) && v.lights[light_type::area_point] > 0; }},
     {"area_lobes", integrates_areas_by_lobes},
     {"area_sampled", samples_areas},
     {"directions_drawn", [](const Variant& v) { return samples_environment(v) || samples_areas(v); }},

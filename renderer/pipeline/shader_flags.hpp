@@ -59,7 +59,7 @@ enum class Counting {
 /// The rounds of each loop in a program that is compiled to estimate its cost; at least 1 each.
 struct FixedTrips {
   int probes = 1, lobes = 1, rounds = 1;
-  PerLightKind<int> lights{1, 1, 1, 1, 1};
+  PerLightType<int> lights{1, 1, 1, 1, 1};
 };
 
 /// What a program is compiled for. Equal variants give equal text.
@@ -80,7 +80,7 @@ struct ShaderVariant {
   bool sums_environment = false;                             ///< MethodInfo::sums_environment
   std::size_t environment_suns = 0;            ///< suns separated from the environment (scene/environment.hpp)
   std::size_t facet_lobes = most_facet_lobes;  ///< capacity per material; a smaller one compiles faster
-  PerLightKind<std::size_t> lights{};          ///< points of area lights: those that the program evaluates
+  PerLightType<std::size_t> lights{};          ///< points of area lights: those that the program evaluates
   bool area_lobes = false;                     ///< integrates area lights by the module's lobes
   bool area_sampled = false;                   ///< of the reference: draws points of area lights and directions
   std::size_t shadow_maps = 0;

@@ -70,8 +70,8 @@ TEST(ShaderSource, CountsTheCallsOfAPixel) {
     return text.find("const int shade_calls = " + std::to_string(count) + ";") != std::string::npos;
   };
   EXPECT_TRUE(has_calls(1)) << "no light";
-  variant.lights[light_kind::point] = 2;
-  variant.lights[light_kind::directional] = 1;
+  variant.lights[light_type::point] = 2;
+  variant.lights[light_type::directional] = 1;
   variant.environment_suns = 2;
   EXPECT_TRUE(has_calls(5));
   variant.footprint = {FootprintFilterKind::anisotropic, 8};

@@ -34,7 +34,7 @@ std::string plain_stage(const ShaderFlags& flags, std::string_view file) {
 
 // Lights that a program shades one by one.
 std::size_t punctual_lights(const ShaderVariant& v) {
-  return std::reduce(v.lights.begin(), v.lights.end()) - v.lights[light_kind::area];
+  return std::reduce(v.lights.begin(), v.lights.end()) - v.lights[light_type::area];
 }
 
 std::string light_capacities(const ShaderVariant& v) {
@@ -42,9 +42,9 @@ std::string light_capacities(const ShaderVariant& v) {
   const auto capacity = [&](std::string_view name, std::size_t count) {
     text += fmt::format("const int {}_capacity = {};\n", name, count);
   };
-  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
-    const bool is_declared = i == light_kind::area_point ? v.lights[i] > 0 : has(v.effects, light_kinds[i].effect);
-    if (is_declared) capacity(light_kinds[i].shader_name, std::max<std::size_t>(v.lights[i], 1));
+  for (std::size_t i = 0; i < light_types.size(); ++i) {
+    const bool is_declared = i == light_type::area_point ? v.lights[i] > 0 : has(v.effects, light_types[i].effect);
+    if (is_declared) capacity(light_types[i].shader_name, std::max<std::size_t>(v.lights[i], 1));
   }
   capacity("light", punctual_lights(v));
   if (v.environment_suns > 0) text += fmt::format("const int environment_sun_count = {};\n", v.environment_suns);
@@ -56,9 +56,9 @@ std::string fixed_trips(const std::optional<FixedTrips>& trips, const EffectSet&
   if (!trips) return {};
   std::string text = fmt::format("const int fixed_probes = {}, fixed_lobes = {}, fixed_rounds = {};\n", trips->probes,
                                  trips->lobes, trips->rounds);
-  for (std::size_t i = 0; i < light_kinds.size(); ++i) {
-    if (has(effects, light_kinds[i].effect))
-      text += fmt::format("const int {} = {};\n", light_kinds[i].counter, trips->lights[i]);
+  for (std::size_t i = 0; i < light_types.size(); ++i) {
+    if (has(effects, light_types[i].effect))
+      text += fmt::format("const int {} = {};\n", light_types[i].counter, trips->lights[i]);
   }
   return text;
 }

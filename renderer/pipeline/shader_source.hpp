@@ -16,7 +16,7 @@ namespace footprint {
 
 /// The bindings of uniform blocks in the shared shaders.
 namespace block_binding {
-inline constexpr GLuint material = 0, method = 1, environment = 5, shadow_views = 6;  // others: light_kinds
+inline constexpr GLuint material = 0, method = 1, environment = 5, shadow_views = 6;  // others: light_types
 }  // namespace block_binding
 
 /// The textures of one program in the order of their units, from 0.

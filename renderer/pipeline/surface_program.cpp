@@ -51,17 +51,17 @@ struct AreaUse {
 AreaUse area_use(const GpuScene& scene, const Method& method, const ProgramSettings& settings) {
   const GpuScene::LightCounts& lights = scene.light_counts();
   if (method.info.draws_directions && settings.sampling != Sampling::frame)
-    return {.sampled = lights.of[light_kind::area] > 0};
+    return {.sampled = lights.of[light_type::area] > 0};
   const bool lists_lobes = has(method.info.honours, Effect::environment_light) && !method.info.sums_environment &&
                            !has(scene.effects(), Effect::clear_coat) && !has_patches(scene.effects());
-  if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.of[light_kind::area_point]};
+  if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.of[light_type::area_point]};
   return {.points = lights.points_alone, .by_lobes = true};
 }
 
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
   const AreaUse area = area_use(scene, *baked.method, settings);
-  PerLightKind<std::size_t> lights = scene.light_counts().of;
-  lights[light_kind::area_point] = area.points;
+  PerLightType<std::size_t> lights = scene.light_counts().of;
+  lights[light_type::area_point] = area.points;
   return {.effects = effects_of(scene, *baked.method),
           .brdf = scene.brdf(),
           .sampling = settings.sampling,

@@ -23,7 +23,6 @@ constexpr int bins_as_published = 127;
 // If texels reflect by lobes, the least width of a bin in standard deviations of a lobe.
 constexpr double bin_width = 1.5;
 
-// The options that the bake reads.
 struct Settings {
   const Options& options;
   int m = static_cast<int>(options.number("m"));
@@ -101,7 +100,6 @@ std::vector<WidthClass> classes_of(const Image& widths, int most_across) {
   return classes;
 }
 
-// The class of each texel.
 TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths) {
   TexelClasses out;
   for (const WidthClass& one : classes) out.across.push_back(one.across);

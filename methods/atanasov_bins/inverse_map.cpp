@@ -176,7 +176,6 @@ std::vector<Mean> means_over_lists(const InverseMap& map, const Value& value) {
   return out;
 }
 
-// Sums over texels of one list.
 struct Sums {
   glm::dvec2 offset{0.0};
   glm::dvec2 squares{0.0};

@@ -29,7 +29,6 @@ using best_lobes::OtherMethods;
 using best_lobes::Shape;
 using fournier::Layer;
 
-// The options that the bake reads.
 struct Settings {
   std::size_t lobes;
   Shape shape;
@@ -75,7 +74,6 @@ std::vector<OtherMethods> other_methods(const Material& material, std::size_t co
   return others;
 }
 
-// Fits the texels of one material.
 class Fitter {
  public:
   // groups: null if all texels have one roughness, or are taken to have.

@@ -147,7 +147,6 @@ class Mixture {
   double sum_ = 0.0;
 };
 
-// The levels above the finest.
 std::vector<Image> coarser_levels(const Image& finest) {
   std::vector<Image> levels = mip_chain(finest);
   levels.front() = {};

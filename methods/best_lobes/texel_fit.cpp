@@ -211,7 +211,6 @@ class Distance {
     return out;
   }
 
-  // The squared distance alone.
   [[nodiscard]] double of(const LobeVector& x) const {
     const double q = missing(lobes_at(x)).squaredNorm();
     return std::isfinite(q) ? q : std::numeric_limits<double>::infinity();

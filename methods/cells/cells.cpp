@@ -41,7 +41,6 @@ std::vector<OptionSpec> option_table() {
       steepest_slope_option()};
 }
 
-// The options that the bake reads.
 struct Settings {
   const Options& options;
   int parts = static_cast<int>(options.number("k"));

@@ -15,7 +15,6 @@ extern const EmbeddedTexts fournier_glsl;
 
 namespace {
 
-// The options that the bake reads.
 struct Settings {
   const Options& options;
   std::size_t peaks = static_cast<std::size_t>(options.number("peaks"));

@@ -91,7 +91,6 @@ class ChainBuilder {
     bins_ = std::move(bins);
   }
 
-  // Computes texel i of the next level.
   TexelFit make_texel(std::size_t i, Image& coarse, NormalBins& bins) {
     const auto width = static_cast<std::size_t>(coarse.width);
     const int x = static_cast<int>(i % width);

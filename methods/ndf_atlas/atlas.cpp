@@ -166,7 +166,6 @@ class Packing {
     blocks_ = Image(2 * layout.columns, layout.rows, 4);
   }
 
-  // Adds the tables of the next level.
   void add(LevelTables& level, const Lattice& lattice, const std::array<Wrap, 2>& wrap) {
     std::vector<StoredTable> tables(level.coverage.size());
     tbb::parallel_for(std::size_t{0}, tables.size(), [&](std::size_t texel) {

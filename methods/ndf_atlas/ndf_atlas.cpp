@@ -43,7 +43,6 @@ std::vector<OptionSpec> option_table() {
           word_option("storage", {"fp32", "fp16"}, "How the moments of parts and the mean normals are stored.")};
 }
 
-// The options that the bake reads.
 struct Settings {
   const Options& options;
   int level = static_cast<int>(options.number("level"));

@@ -19,9 +19,7 @@ Effective effective(Footprints f) {
                    size > 1e-6 ? direction / size : vec2(1.0, 0.0));
 }
 
-mat2 squaredAlphas(Effective e) {
-  return inAxes(e.alphas.x * e.alphas.x, e.alphas.y * e.alphas.y, e.direction);
-}
+mat2 squaredAlphas(Effective e) { return inAxes(e.alphas.x * e.alphas.x, e.alphas.y * e.alphas.y, e.direction); }
 
 float ndf(Effective e, vec3 h) { return stretchedDensity(e.alphas, e.direction, e.normal, h); }
 

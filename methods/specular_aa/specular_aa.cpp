@@ -16,7 +16,6 @@ namespace {
 constexpr double default_constant = 0.3;
 constexpr double default_cap = 0.04;
 
-// The options that the bake reads.
 struct Settings {
   std::optional<roughness_bake::Preset> bake;  // of the roughness mips
   Storage storage;

@@ -142,7 +142,6 @@ void InstantMap::run(const FrameBuildJob& job) const {
   for (const std::string_view name : {parts_name, parts_guard_name}) coarsen(job, name);
 }
 
-// Binds the inputs of the program.
 void InstantMap::prepare_join(const FrameBuildJob& job, const gl::Program& program, bool camera) const {
   constexpr std::array inputs{normals_name, variances_name, table_name, colours_name};
   for (GLuint unit = 0; unit < inputs.size(); ++unit) {

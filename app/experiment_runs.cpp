@@ -15,7 +15,6 @@
 #include "app/folders.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
-#include "experiments/runner/judge.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"

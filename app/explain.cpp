@@ -128,8 +128,10 @@ Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet
                      const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
   auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
-  StagedMethod method(context, *scene, stage.scene(), effects, run.methods.front(),
-                      footprint_filter_of(run, stage.scene()), size, run, no_progress);
+  const StagedFrames wanted{.spec = run.methods.front(), .filter = footprint_filter_of(run, stage.scene())};
+  StagedMethod method(context, *scene, stage.scene(),
+                      prepared_method(*scene, stage.scene(), effects, wanted.spec, run, no_progress), wanted, size,
+                      run.backend.tile);
   return {std::move(scene), std::move(method)};
 }
 

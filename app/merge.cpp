@@ -14,7 +14,7 @@
 #include "app/output.hpp"
 #include "app/part_file.hpp"
 #include "app/run_options.hpp"
-#include "experiments/studies/distance_result.hpp"
+#include "experiments/studies/finished_work.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {

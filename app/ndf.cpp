@@ -16,7 +16,7 @@
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 
 namespace footprint {
 namespace {

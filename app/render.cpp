@@ -13,7 +13,6 @@
 #include "app/output.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/frame_times.hpp"
-#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/process.hpp"
@@ -90,7 +89,7 @@ void run_render(const RenderArguments& arguments) {
   ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
   const Stage stage(std::move(scene), run, parts.next(1, ""),
-                    run.methods.empty() ? reference_pictures : pictures_of_a_frame);
+                    {.pictures = run.methods.empty() ? reference_pictures : pictures_of_a_frame});
   const Image picture = render_picture(stage, distance, run, parts.next(2, ""));
   throw_if_interrupted();
   save_picture(path, picture, run, stage.scene());

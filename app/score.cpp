@@ -19,7 +19,6 @@
 #include "app/messages.hpp"
 #include "app/output.hpp"
 #include "app/run_options.hpp"
-#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/score.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
@@ -91,7 +90,8 @@ Reference rendered_reference(const ScoreArguments& arguments) {
   run.view.size = {first.width, first.height};
   ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
-  const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""), scoring_pictures);
+  const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""),
+                    {.pictures = scoring_pictures});
   Supersampled drawn = stage.reference().render(stage.view(run.view.distances.front()), run.reference.spp,
                                                 run.reference.seed, parts.next(2, ""));
   stage.context().check("rendering the reference");

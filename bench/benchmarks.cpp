@@ -1,4 +1,4 @@
-// Benchmarks of editing small-scale geometry, of fitting mixtures, and of the frame of the bare shader.
+// Benchmarks of editing small-scale geometry and of fitting mixtures.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -8,7 +8,6 @@
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/tan_gmm/mixture_chain.hpp"
 #include "renderer/core/progress.hpp"
-#include "renderer/gl/objects.hpp"
 #include "renderer/microgeometry/patch.hpp"
 #include "scenes/surfaces/registry.hpp"
 
@@ -83,22 +82,6 @@ void register_tan_gmm_benchmarks() {
           ->Unit(benchmark::kMillisecond);
     }
   }
-}
-
-void register_frame_benchmark(const BenchScene& scene) {
-  const auto run = [&scene](benchmark::State& state) {
-    gl::FrameTimer timer(scene.stage().context().info());
-    scene.draw_bare();  // shaders are compiled when they are first drawn with
-    for ([[maybe_unused]] auto _ : state) {
-      timer.begin();
-      scene.draw_bare();
-      state.SetIterationTime(1e-3 * timer.end_ms());
-    }
-  };
-  benchmark::RegisterBenchmark("frame/bare", run)
-      ->UseManualTime()
-      ->MeasureProcessCPUTime()
-      ->Unit(benchmark::kMillisecond);
 }
 
 }  // namespace footprint::bench

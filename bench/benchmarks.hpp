@@ -2,14 +2,22 @@
 // limits.
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "bench/bench_scene.hpp"
-#include "renderer/pipeline/timing.hpp"
+#include "experiments/settings/run_settings.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace footprint::bench {
+
+/// The scene of a name or path; an empty `name` is ClearCoatTest without its coats under the supplied lamps alone, as
+/// it has always been timed: none where its package (assimp-testmodels) is not installed, after a line on stderr that
+/// says so. Errors: those of load_scene.
+[[nodiscard]] std::optional<Scene> load_bench_scene(const std::string& name);
+
+/// Frames of 512 x 512 pixels by `direct` and the methods of a comma-separated list. Errors (usage): unknown method or
+/// option.
+[[nodiscard]] RunSettings bench_settings(const std::string& methods);
 
 /// Edits small-scale geometry, from a patch to the amplitudes of its lobes: each kind of patch at the paper's
 /// discretisation, then more facets and normals.
@@ -19,8 +27,8 @@ void register_iwasaki_benchmarks();
 /// finest level.
 void register_tan_gmm_benchmarks();
 
-/// Draws the frame of the bare shader. `scene` must outlive the run.
-void register_frame_benchmark(const BenchScene& scene);
+/// Draws the frame of the bare shader (bare_fragment.glsl).
+void register_frame_benchmark(Scene scene);
 
 /// The most that every bake may take; 0: no limit.
 struct BakeLimits {
@@ -33,26 +41,11 @@ struct BakeLimits {
 /// with the table before it on stdout.
 void print_bake_table(const Scene& scene, const std::string& methods, int rounds, const BakeLimits& limits);
 
-/// Prints, for frames of 512 x 512 pixels by methods of a list, commas between, of a plane that repeats the map of the
-/// surface `scratched_metal`, `resolution` texels per side, under one light: what they cost where every pixel's
-/// footprint is a square of 1, 2, 4 ... texels per side, up to the whole map. CPU times, medians over `repeats` rounds,
-/// with the lookups per pixel, and the greatest over the median of all sizes of both. Errors (usage): unknown method or
-/// option; (check): the greatest time of a method is more than `most_ratio` times its median (0: no limit).
+/// Prints, for frames of bench_settings of a plane that repeats the map of the surface `scratched_metal`, `resolution`
+/// texels per side, under one light: what they cost where every pixel's footprint is a square of 1, 2, 4 ... texels per
+/// side, up to the whole map. CPU times, medians over `repeats` rounds, with the lookups per pixel, and the greatest
+/// over the median of all sizes of both. Errors (usage): unknown method or option; (check): the greatest time of a
+/// method is more than `most_ratio` times its median (0: no limit).
 void print_footprint_sizes(const std::string& methods, int resolution, int repeats, double most_ratio);
-
-/// Milliseconds, [candidate][repeat]. CPU time is that of all threads of the process: other load on the machine hardly
-/// moves it, while wall clock shows what a user waits for.
-struct WallAndCpu {
-  std::vector<std::vector<double>> wall, cpu;
-};
-
-/// Draws every candidate once in each of `repeats` rounds, after one round that warms up.
-[[nodiscard]] WallAndCpu side_by_side(const gl::ContextInfo& context, std::span<const DrawFrame> candidates,
-                                      int repeats);
-
-/// A table with median, min, max and the middle 80% of each ratio: `direct` against the bare shader, every method
-/// against the one called `over`, and the 64-sample reference against 64 frames of `direct`. `repeats` pairs of frames;
-/// a tenth of them, at least 5, for the reference. Errors (usage): `over` is none of the scene's methods.
-[[nodiscard]] std::string ratio_table(const BenchScene& scene, const std::string& over, int repeats);
 
 }  // namespace footprint::bench

@@ -1,4 +1,4 @@
-// footprint_bench: the time of frames, the reference, mixtures, edits of small-scale geometry and bakes
+// footprint_bench: the time of the bare frame, mixtures, edits of small-scale geometry, bakes and sizes of footprints
 // (docs/contributing/performance.md).
 #include <benchmark/benchmark.h>
 
@@ -16,28 +16,23 @@ namespace {
 
 // The values of the command line.
 struct Request {
-  int ratio_rounds = 0, footprint_rounds = 0, bake_rounds = 0;  // 0: not that mode
+  int footprint_rounds = 0, bake_rounds = 0;  // 0: not that mode
   footprint::bench::BakeLimits bake_limits;
   int resolution = 4096;  // of the map under the footprints
   double most_ratio = 0.0;
-  std::string scene, methods, over = "direct";
+  std::string scene, methods = "atanasov_bins:roughness=bin";
 };
 
 constexpr const char* examples = R"(
 Examples:
   footprint_bench
   footprint_bench --benchmark_filter=tan_gmm
-  footprint_bench --ratios 31
-  footprint_bench --ratios 15 --scene carved_disk --methods toksvig,tan_gmm --over tan_gmm
   footprint_bench --footprints 5 --methods atanasov_bins:roughness=bin,tan_gmm --resolution 1024
   footprint_bench --bakes 3 --scene scratched_metal --methods atanasov_bins:m=63:roughness=bin --most-seconds 10
 )";
 
 void declare_options(CLI::App& app, Request& request) {
   const CLI::Range rounds(1, 100000);
-  app.add_option("--ratios", request.ratio_rounds,
-                 "Print ratios of interleaved frame times over this many rounds, and nothing else")
-      ->check(rounds);
   app.add_option("--footprints", request.footprint_rounds,
                  "Print what frames of --methods cost by the size of a pixel's footprint, over this many rounds")
       ->check(rounds);
@@ -61,9 +56,7 @@ void declare_options(CLI::App& app, Request& request) {
       ->capture_default_str();
   app.add_option("--scene", request.scene,
                  "What to draw: as `footprint compare` takes it; if not given, ClearCoatTest");
-  app.add_option("--methods", request.methods,
-                 "Methods to draw by; if not given, all whose precompute takes no seconds");
-  app.add_option("--over", request.over, "The method that --ratios takes every other to")->capture_default_str();
+  app.add_option("--methods", request.methods, "With --footprints and --bakes: the methods")->capture_default_str();
   app.footer(examples);
 }
 
@@ -89,28 +82,17 @@ void run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::exit(app.exit(error) == 0 ? 0 : static_cast<int>(footprint::ErrorKind::usage));
   }
-  if (request.footprint_rounds > 0) {
-    if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
-    footprint::bench::print_footprint_sizes(request.methods, request.resolution, request.footprint_rounds,
-                                            request.most_ratio);
-    return;
-  }
-  std::optional<footprint::Scene> scene = footprint::bench::load_bench_scene(request.scene);
+  using namespace footprint::bench;
+  if (request.footprint_rounds > 0)
+    return print_footprint_sizes(request.methods, request.resolution, request.footprint_rounds, request.most_ratio);
+  std::optional<footprint::Scene> scene = load_bench_scene(request.scene);
   if (request.bake_rounds > 0) {
-    if (request.methods.empty()) request.methods = "atanasov_bins:roughness=bin";
-    if (scene) footprint::bench::print_bake_table(*scene, request.methods, request.bake_rounds, request.bake_limits);
+    if (scene) print_bake_table(*scene, request.methods, request.bake_rounds, request.bake_limits);
     return;
   }
-  std::optional<footprint::bench::BenchScene> subject;
-  if (scene) subject.emplace(std::move(*scene), footprint::bench::bench_settings(request.methods));
-  if (request.ratio_rounds > 0) {
-    if (subject)
-      (void)std::fputs(footprint::bench::ratio_table(*subject, request.over, request.ratio_rounds).c_str(), stdout);
-    return;
-  }
-  if (subject) footprint::bench::register_frame_benchmark(*subject);
-  footprint::bench::register_tan_gmm_benchmarks();
-  footprint::bench::register_iwasaki_benchmarks();
+  if (scene) register_frame_benchmark(std::move(*scene));
+  register_tan_gmm_benchmarks();
+  register_iwasaki_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
 }
 

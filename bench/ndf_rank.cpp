@@ -14,6 +14,7 @@
 
 #include "bench/linear_bases.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "methods/ndf_atlas/lattice.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/baked_method.hpp"
@@ -47,11 +48,7 @@ Material cut(Material material, int edge) {
   const Image whole = material.normal_map->image.decoded();
   const int width = std::min(edge, whole.width), height = std::min(edge, whole.height);
   auto part = std::make_shared<Image>(width, height, whole.channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      std::ranges::copy(whole.at(x + (whole.width - width) / 2, y + (whole.height - height) / 2),
-                        part->at(x, y).begin());
-  }
+  paste(whole, -(whole.width - width) / 2, -(whole.height - height) / 2, *part);
   material.normal_map->image = part;
   return material;
 }

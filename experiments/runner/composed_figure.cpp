@@ -42,21 +42,10 @@ Image enlarged(const Image& picture, int factor) {
   return large;
 }
 
-void fill(Image& picture, const Rectangle& part, float value) {
-  for (int y = std::max(part.top, 0); y < std::min(part.top + part.height, picture.height); ++y) {
-    for (int x = std::max(part.left, 0); x < std::min(part.left + part.width, picture.width); ++x) {
-      std::ranges::fill(picture.at(x, y), value);
-    }
-  }
-}
-
-void outline(Image& picture, const Rectangle& part) {
-  const auto [left, top, width, height] = part;
+void paste_framed(const Image& part, int left, int top, Image& picture) {
   const int line = frame_width;
-  fill(picture, {left - line, top - line, width + 2 * line, line}, 1.0F);
-  fill(picture, {left - line, top + height, width + 2 * line, line}, 1.0F);
-  fill(picture, {left - line, top, line, height}, 1.0F);
-  fill(picture, {left + width, top, line, height}, 1.0F);
+  paste(Image(part.width + 2 * line, part.height + 2 * line, part.channels, 1.0F), left - line, top - line, picture);
+  paste(part, left, top, picture);
 }
 
 Image shown(const Image& display, const FigurePicture& picture, const FigureLayout& layout) {
@@ -71,10 +60,9 @@ void pad_to_one_height(std::vector<Image>& pictures) {
   if (pictures.empty()) return;
   const int height = std::ranges::max(pictures, {}, &Image::height).height;
   for (Image& picture : pictures) {
-    if (picture.height == height) continue;
-    Image above(picture.width, (height - picture.height) / 2, picture.channels);
-    Image below(picture.width, height - picture.height - above.height, picture.channels);
-    picture = stacked(stacked(above, picture), below);
+    Image padded(picture.width, height, picture.channels);
+    paste(picture, 0, (height - picture.height) / 2, padded);
+    picture = std::move(padded);
   }
 }
 
@@ -84,39 +72,38 @@ Image stacked_rows(const std::vector<Image>& rows) {
   return whole;
 }
 
-class Composer {
- public:
-  Composer(const FigureLayout& layout, const Experiment& experiment, const Results& results,
-           const std::filesystem::path& folder)
-      : layout_(layout), experiment_(experiment), results_(results), folder_(folder) {}
+struct Composer {
+  const FigureLayout& layout;
+  const Experiment& experiment;
+  const Results& results;
+  const std::filesystem::path& folder;
 
-  std::vector<std::string> write() {
+  [[nodiscard]] std::vector<std::string> write() const {
     std::vector<Image> rows, error_rows;
-    for (const std::vector<FigurePicture>& row : layout_.rows) add_row(row, rows, error_rows);
-    write_png(folder_ / "images/figure.png", stacked_rows(rows));
+    for (const std::vector<FigurePicture>& row : layout.rows) add_row(row, rows, error_rows);
+    write_png(folder / "images/figure.png", stacked_rows(rows));
     if (error_rows.empty()) return {"images/figure.png"};
     const int width = std::ranges::max(error_rows, {}, &Image::width).width;
-    error_rows.push_back(false_color_legend(width, 28, static_cast<float>(results_.error_scale)));
-    write_png(folder_ / "images/figure_errors.png", stacked_rows(error_rows));
+    error_rows.push_back(false_color_legend(width, 28, static_cast<float>(results.error_scale)));
+    write_png(folder / "images/figure_errors.png", stacked_rows(error_rows));
     return {"images/figure.png", "images/figure_errors.png"};
   }
 
- private:
   void add_row(const std::vector<FigurePicture>& row, std::vector<Image>& rows, std::vector<Image>& error_rows) const {
     std::vector<Image> pictures, errors;
     std::vector<std::string> captions, error_captions;
     for (const FigurePicture& picture : row) {
       const Record& record = record_of(picture);
-      const auto exposure = static_cast<float>(results_.scene.exposure);
-      const Image reference = read_image(folder_ / record.images.reference, Transfer::linear);
-      const Image image = picture.method ? read_image(folder_ / record.images.color, Transfer::linear) : reference;
+      const auto exposure = static_cast<float>(results.scene.exposure);
+      const Image reference = read_image(folder / record.images.reference, Transfer::linear);
+      const Image image = picture.method ? read_image(folder / record.images.color, Transfer::linear) : reference;
       captions.push_back(caption(picture, record));
-      pictures.push_back(shown(to_display(image, exposure), picture, layout_));
+      pictures.push_back(shown(to_display(image, exposure), picture, layout));
       if (!picture.method) continue;
       error_captions.push_back(captions.back());
       errors.push_back(
-          shown(false_color(error_map(image, reference, exposure), static_cast<float>(results_.error_scale)), picture,
-                layout_));
+          shown(false_color(error_map(image, reference, exposure), static_cast<float>(results.error_scale)), picture,
+                layout));
     }
     pad_to_one_height(pictures);
     pad_to_one_height(errors);
@@ -126,15 +113,12 @@ class Composer {
 
   // Records stand frame by frame, in each in the order of the methods.
   const Record& record_of(const FigurePicture& picture) const {
-    const std::size_t index = picture.frame * experiment_.run.methods.size() + picture.method.value_or(0);
-    if (index < results_.records.size()) return results_.records[index];
-    throw Error(ErrorKind::usage, experiment_.file.string(), fmt::format("[figure] shows frame {}", picture.frame),
-                "the scene's zoom path is shorter: give [zoom] distances, or show an earlier frame");
+    return results.records.at(picture.frame * experiment.run.methods.size() + picture.method.value_or(0));
   }
 
   // The mean, because the noise may need more samples than `spp` in some tiles.
   std::string samples_text() const {
-    const ReferenceInfo& reference = results_.reference;
+    const ReferenceInfo& reference = results.reference;
     if (reference.samples <= reference.spp) return fmt::format("{} spp", reference.spp);
     return fmt::format("{:.0f} spp on average", reference.samples);
   }
@@ -145,11 +129,6 @@ class Composer {
     const std::string error = record.error ? fmt::format(": {:.3f}", record.error->normalized_color) : "";
     return label + record.method + error;
   }
-
-  const FigureLayout& layout_;
-  const Experiment& experiment_;
-  const Results& results_;
-  const std::filesystem::path& folder_;
 };
 
 }  // namespace
@@ -157,35 +136,25 @@ class Composer {
 Image cropped(const Image& picture, const Crop& crop) {
   const Rectangle part = rectangle_of(picture, crop);
   Image result(part.width, part.height, picture.channels);
-  for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x) {
-      std::ranges::copy(picture.at(part.left + x, part.top + y), result.at(x, y).begin());
-    }
-  }
+  paste(picture, -part.left, -part.top, result);
   return result;
 }
 
 Image with_inset(const Image& picture, const Crop& inset, double share) {
   const Rectangle part = rectangle_of(picture, inset);
-  const int factor = std::max(1, static_cast<int>(share * picture.width / part.width));
-  const Image large = enlarged(cropped(picture, inset), factor);
+  const Image own = cropped(picture, inset);
+  const Image large = enlarged(own, std::max(1, static_cast<int>(share * picture.width / part.width)));
   Image result = picture;
-  outline(result, part);
-  const int left = std::max(0, picture.width - large.width - frame_width);
-  const int top = std::max(0, picture.height - large.height - frame_width);
-  for (int y = 0; y < std::min(large.height, picture.height - top); ++y) {
-    for (int x = 0; x < std::min(large.width, picture.width - left); ++x) {
-      std::ranges::copy(large.at(x, y), result.at(left + x, top + y).begin());
-    }
-  }
-  outline(result, {left, top, large.width, large.height});
+  paste_framed(own, part.left, part.top, result);
+  paste_framed(large, std::max(0, picture.width - large.width - frame_width),
+               std::max(0, picture.height - large.height - frame_width), result);
   return result;
 }
 
 std::vector<std::string> write_figures(const FigureLayout& layout, const Experiment& experiment, const Results& results,
                                        const std::filesystem::path& folder) {
   if (layout.rows.empty()) return {};
-  return Composer(layout, experiment, results, folder).write();
+  return Composer{layout, experiment, results, folder}.write();
 }
 
 }  // namespace footprint

@@ -12,8 +12,8 @@ namespace footprint {
 
 /// Reads the run's pictures back from `folder` and writes FOLDER/images/figure.png and, where a method is shown,
 /// figure_errors.png (the same pictures' errors in false colour over the scale's legend). Returns their paths from the
-/// folder; empty for a layout without rows. Errors (usage): a frame that the run does not have; (machine): a picture
-/// cannot be read or written.
+/// folder; empty for a layout without rows. The run has every frame of the layout (check_against_scenes). Errors
+/// (machine): a picture cannot be read or written.
 [[nodiscard]] std::vector<std::string> write_figures(const FigureLayout& layout, const Experiment& experiment,
                                                      const Results& results, const std::filesystem::path& folder);
 

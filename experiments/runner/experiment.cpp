@@ -41,16 +41,17 @@ std::vector<std::string> with(std::vector<std::string> keys, const std::vector<s
   return keys;
 }
 
-std::string required_word(const TomlTable& table, std::string_view key) {
-  const auto word = table.word(key);
-  if (!word) refuse_missing(table, key, experiments_document);
-  if (word->empty()) throw table.error_at(key, "is empty", "fill it in");
-  return *word;
+// The value that was read of a key. Errors (usage): it is missing.
+template <class Value>
+Value required(const TomlTable& table, std::string_view key, std::optional<Value> value) {
+  if (!value) refuse_missing(table, key, experiments_document);
+  return *std::move(value);
 }
 
-int whole_number(const TomlTable& table, std::string_view key, NumberRange range, int otherwise) {
-  const auto value = table.whole_number(key, range);
-  return value ? static_cast<int>(*value) : otherwise;
+std::string required_word(const TomlTable& table, std::string_view key) {
+  std::string word = required(table, key, table.word(key));
+  if (word.empty()) throw table.error_at(key, "is empty", "fill it in");
+  return word;
 }
 
 // The keys of [`name`] that [matrix] gives. Errors (usage): a key is in both.
@@ -99,14 +100,13 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
     check_measures(parsed.right, experiment);
     return parsed;
   });
-  const auto expect = table.choice("expect", {"reproduced", "not_reproduced"});
-  if (!expect) refuse_missing(table, "expect", experiments_document);
+  const std::size_t expect = required(table, "expect", table.choice("expect", {"reproduced", "not_reproduced"}));
   Claim claim{.stated = {}, .inequality = std::move(inequality)};
   claim.stated.name = required_word(table, "name");
   claim.stated.text = required_word(table, "text");
   claim.stated.source = read_word(table, "source", claim_source_words).value_or(ClaimSource::ours);
   claim.stated.inequality = text;
-  claim.stated.expect = *expect == 0 ? Verdict::reproduced : Verdict::not_reproduced;
+  claim.stated.expect = expect == 0 ? Verdict::reproduced : Verdict::not_reproduced;
   claim.stated.reason = required_word(table, "reason");
   claim.stated.place = table.error_at("name", "", "").place();
   return claim;
@@ -142,16 +142,14 @@ void read_thresholds(const TomlTable& root, Experiment& experiment) {
 
 void read_published(const TomlTable& table, Experiment& experiment) {
   const fs::path file = experiment.file.parent_path() / required_word(table, "file");
-  const auto figures = table.words("figures");
-  if (!figures) refuse_missing(table, "figures", experiments_document);
+  const std::vector<std::string> figures = required(table, "figures", table.words("figures"));
   const TomlTable root(file, {"paper", "note", "value"});
   std::vector<std::string> known;
   for (const TomlTable& value : root.tables("value", {"figure", "measure", "value", "unit", "note"})) {
     const std::string figure = required_word(value, "figure");
     known.push_back(figure);
-    if (std::ranges::find(*figures, figure) == figures->end()) continue;
-    const auto number = value.number("value", any_number);
-    if (!number) refuse_missing(value, "value", experiments_document);
+    if (std::ranges::find(figures, figure) == figures.end()) continue;
+    const double number = required(value, "value", value.number("value", any_number));
     const std::string text = required_word(value, "measure");
     Expression measure = at_key(value, "measure", [&] {
       Expression parsed(text, fmt::format("`{:.200}`", text));
@@ -161,12 +159,12 @@ void read_published(const TomlTable& table, Experiment& experiment) {
     experiment.published.push_back({.printed = {.figure = figure,
                                                 .measure = measure.text(),
                                                 .unit = value.word("unit").value_or(""),
-                                                .published = *number,
+                                                .published = number,
                                                 .measured = {},
                                                 .note = value.word("note").value_or("")},
                                     .measure = std::move(measure)});
   }
-  for (const std::string& figure : *figures) {
+  for (const std::string& figure : figures) {
     if (std::ranges::find(known, figure) != known.end()) continue;
     throw table.error_at("figures", fmt::format("names `{:.80}`, which {} does not have", figure, file.string()),
                          suggestion(figure, known));
@@ -183,9 +181,8 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
     if (std::ranges::find(experiment.footprints, name, &NamedFootprint::name) != experiment.footprints.end()) {
       throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
     }
-    const auto sides = table.numbers("footprint", 4, {-1e6, 1e6});
-    if (!sides) refuse_missing(table, "footprint", experiments_document);
-    const FootprintRect rect{{(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]}};
+    const auto sides = required(table, "footprint", table.numbers("footprint", 4, {-1e6, 1e6}));
+    const FootprintRect rect{{sides[0], sides[1]}, {sides[2], sides[3]}};
     at_key(table, "footprint", [&] { check_footprint(rect, ""); });
     experiment.footprints.push_back({.name = name, .rect = rect});
   }
@@ -246,7 +243,7 @@ FigurePicture read_picture(const TomlTable& table, const Experiment& experiment)
   if (method != "reference") {
     picture.method = at_key(table, "method", [&] { return select_method(method, texts_of(experiment.run.methods)); });
   }
-  picture.frame = static_cast<std::size_t>(whole_number(table, "frame", {0, most_frames}, 0));
+  picture.frame = static_cast<std::size_t>(table.whole_number("frame", {0, most_frames}).value_or(0));
   const std::vector<double> distances = given_distances(experiment.run.view);
   if (!distances.empty() && picture.frame >= distances.size()) {
     throw table.error_at("frame", "does not exist", fmt::format("frames are 0 to {}", distances.size() - 1));
@@ -348,8 +345,7 @@ void check_at_distances(const Expression& expression, const Experiment& experime
     std::vector<double> distances;
     std::size_t frames = 0;
     for (const SceneDistances& scene : scenes) {
-      const auto wanted = measure.slice.find("scene");
-      if (wanted != measure.slice.end() && wanted->second != scene.name) continue;
+      if (!measure.takes(Selector::scene, scene.name)) continue;
       std::ranges::copy(scene.distances, std::back_inserter(distances));
       frames = std::max(frames, scene.distances.size());
     }

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/runner/judge.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "experiments/studies/views.hpp"
 #include "methods/registry.hpp"

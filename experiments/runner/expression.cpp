@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,18 +18,25 @@
 
 namespace footprint {
 
+const std::string* Measure::word(Selector selector) const {
+  const auto found = selected.find(selector);
+  return found == selected.end() ? nullptr : &found->second;
+}
+
+std::optional<double> Measure::number(Selector selector) const {
+  const std::string* const value = word(selector);
+  return value == nullptr ? std::nullopt : parse_whole_of<double>(*value);
+}
+
+bool Measure::takes(Selector selector, const std::string& value) const {
+  return word(selector) == nullptr || *word(selector) == value;
+}
+
+bool Measure::takes(Selector selector, double value) const { return number(selector).value_or(value) == value; }
+
 std::string measure_text(const Measure& measure) {
   std::string text = fmt::format("{}({}", measure.function->name, measure.method);
-  const auto add = [&text](Selector selector, const auto& value) {
-    if (value) text += fmt::format(", {}={}", selector_name(selector), *value);
-  };
-  add(Selector::distance, measure.distance);
-  add(Selector::frame, measure.frame);
-  for (const auto& [axis, value] : measure.slice) text += fmt::format(", {}={}", axis, value);
-  add(Selector::footprint, measure.footprint);
-  add(Selector::name, measure.name);
-  add(Selector::gpu, measure.gpu);
-  add(Selector::spp, measure.spp);
+  for (const auto& [selector, value] : measure.selected) text += fmt::format(", {}={}", selector_name(selector), value);
   return text + ")";
 }
 
@@ -179,41 +187,20 @@ class Parser {
   }
 
   // Whether the value is one of the selector's, and its first.
-  static bool select(Measure& measure, Selector selector, const std::string& value) {
-    switch (selector) {
-      case Selector::distance:
-        return read(value, measure.distance);
-      case Selector::frame:
-        return read(value, measure.frame) && *measure.frame >= 0;
-      case Selector::spp:
-        return read(value, measure.spp) && *measure.spp > 0;
-      case Selector::scene:
-      case Selector::size:
-      case Selector::filter:
-      case Selector::seed:
-        return !value.empty() && measure.slice.emplace(selector_name(selector), value).second;
-      case Selector::footprint:
-        return read(value, measure.footprint);
-      case Selector::gpu:
-        return read(value, measure.gpu);
-      case Selector::name:
-        break;
+  static bool select(Measure& measure, Selector selector, std::string value) {
+    if (selector == Selector::distance) {
+      value = shortest<double>(value, -std::numeric_limits<double>::infinity());
+    } else if (selector == Selector::frame || selector == Selector::spp) {
+      value = shortest<int>(value, selector == Selector::frame ? 0 : 1);
     }
-    return read(value, measure.name);
+    return !value.empty() && measure.selected.emplace(selector, value).second;
   }
 
-  static bool read(const std::string& text, std::optional<std::string>& word) {
-    if (word || text.empty()) return false;
-    word = text;
-    return true;
-  }
-
-  // Whether `text` is a number of T and nothing else; a value that is there already is not written twice.
+  // A number in one style; empty if it is none, or below `least`.
   template <typename T>
-  static bool read(const std::string& text, std::optional<T>& value) {
-    if (value) return false;
-    value = parse_whole_of<T>(text);
-    return value.has_value();
+  static std::string shortest(const std::string& text, T least) {
+    const auto value = parse_whole_of<T>(text);
+    return value && *value >= least ? fmt::format("{}", *value) : std::string();
   }
 
   // Up to the next comma or parenthesis, without blanks around it.

@@ -21,23 +21,27 @@ struct Experiment;
 struct FigureFunction;
 class Samples;
 
-/// A selector of a call: `distance=4`.
+/// A selector of a call: `distance=4`, in the order in which calls are written.
 enum class Selector {
   distance,
   frame,
-  spp,
-  scene,  ///< this and the next three: of the members of a matrix those that have the value on that axis
-  size,
-  filter,  ///< the footprint filter
+  filter,  ///< the footprint filter; this and the next three: of members of a matrix those with the value on that axis
+  scene,
   seed,
-  footprint,  ///< of an effective NDF
-  name,
-  gpu  ///< of an estimated cost
+  size,
+  footprint,  ///< of an effective NDF: its name in the experiment
+  name,       ///< of a quantity in the experiment
+  gpu,        ///< of an estimated cost; not given: the experiment's only one
+  spp         ///< above 0; of the reference, or of plain supersampling
 };
 
 /// As they are written, in the order of Selector.
-inline constexpr std::array<std::string_view, 10> selector_names{"distance",  "frame", "spp",       "scene", "size",
-                                                                 "footprint", "seed",  "footprint", "name",  "gpu"};
+inline constexpr std::array<std::string_view, 10> selector_names{"distance", "frame",     "footprint", "scene", "seed",
+                                                                 "size",     "footprint", "name",      "gpu",   "spp"};
+
+/// Those of the axes of a matrix.
+inline constexpr std::array<Selector, 4> axis_selectors{Selector::filter, Selector::scene, Selector::seed,
+                                                        Selector::size};
 
 [[nodiscard]] constexpr std::string_view selector_name(Selector selector) {
   return selector_names.at(static_cast<std::size_t>(selector));
@@ -47,13 +51,14 @@ inline constexpr std::array<std::string_view, 10> selector_names{"distance",  "f
 struct Measure {
   const FigureFunction* function = nullptr;  ///< a row of figure_functions(); null in no call
   std::string method;  ///< a method as the experiment writes it, its name alone where only one has it, or `*`
-  std::optional<double> distance;
-  std::optional<int> frame;
-  std::optional<int> spp;                      ///< above 0; of the reference, or of plain supersampling
-  std::map<std::string, std::string> slice{};  ///< of a matrix: by an axis' key the value that members must have
-  std::optional<std::string> footprint;        ///< of an NDF: its name in the experiment
-  std::optional<std::string> name;             ///< of a quantity in the experiment
-  std::optional<std::string> gpu;              ///< of an estimated cost; none: the experiment's only one
+  std::map<Selector, std::string> selected{};  ///< values as they are written, numbers shortest
+
+  /// The value of a selector; null: it is not given.
+  [[nodiscard]] const std::string* word(Selector selector) const;
+  [[nodiscard]] std::optional<double> number(Selector selector) const;
+  /// Whether a selector has the value, or is not given.
+  [[nodiscard]] bool takes(Selector selector, const std::string& value) const;
+  [[nodiscard]] bool takes(Selector selector, double value) const;
 };
 
 /// "error(toksvig:storage=fp16, distance=4)".

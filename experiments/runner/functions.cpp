@@ -36,15 +36,16 @@ bool has(const Values& values, const Value& value) {
 void nothing(const Measure& /*measure*/, const Experiment& /*experiment*/) {}
 
 void its_reference(const Measure& measure, const Experiment& experiment) {
-  if (!measure.spp || has(experiment.run.reference.other_spp, *measure.spp)) return;
-  refuse(measure, fmt::format("other_spp of [reference] does not have {}", *measure.spp),
-         "add it there, or leave spp out");
+  const std::string* const spp = measure.word(Selector::spp);
+  if (spp == nullptr || has(experiment.run.reference.other_spp, *measure.number(Selector::spp))) return;
+  refuse(measure, fmt::format("other_spp of [reference] does not have {}", *spp), "add it there, or leave spp out");
 }
 
 void a_timed_count(const Measure& measure, const Experiment& experiment) {
-  if (!measure.spp) refuse(measure, "does not say of how many samples", "add spp=SAMPLES");
-  if (has(experiment.run.reference.supersampling, *measure.spp)) return;
-  refuse(measure, fmt::format("no {} samples are timed", *measure.spp),
+  const std::string* const spp = measure.word(Selector::spp);
+  if (spp == nullptr) refuse(measure, "does not say of how many samples", "add spp=SAMPLES");
+  if (has(experiment.run.reference.supersampling, *measure.number(Selector::spp))) return;
+  refuse(measure, fmt::format("no {} samples are timed", *spp),
          fmt::format("timed are [{}]: see supersampling of [reference]",
                      fmt::join(experiment.run.reference.supersampling, ", ")));
 }
@@ -58,26 +59,29 @@ void a_footprint(const Measure& measure, const Experiment& experiment) {
   if (experiment.footprints.empty()) {
     refuse(measure, "no footprint is looked into", "add [[ndf]] with a name and a footprint");
   }
-  if (!measure.footprint) return;
-  const auto found = std::ranges::find(experiment.footprints, *measure.footprint, &NamedFootprint::name);
+  const std::string* const name = measure.word(Selector::footprint);
+  if (name == nullptr) return;
+  const auto found = std::ranges::find(experiment.footprints, *name, &NamedFootprint::name);
   if (found != experiment.footprints.end()) return;
-  refuse(measure, fmt::format("`{:.80}` is not a footprint", *measure.footprint), "use the name of one of [[ndf]]");
+  refuse(measure, fmt::format("`{:.80}` is not a footprint", *name), "use the name of one of [[ndf]]");
 }
 
 void a_gpu(const Measure& measure, const Experiment& experiment) {
   const std::vector<std::string>& gpus = experiment.run.gpus;
   if (gpus.empty()) refuse(measure, "no GPU's cost is estimated", "add gpu = [\"Steam Deck\"] to [experiment]");
-  if (measure.gpu && !has(gpus, *measure.gpu))
-    refuse(measure, fmt::format("the experiment has no GPU `{:.80}`", *measure.gpu), suggestion(*measure.gpu, gpus));
-  if (!measure.gpu && gpus.size() > 1)
+  const std::string* const gpu = measure.word(Selector::gpu);
+  if (gpu != nullptr && !has(gpus, *gpu))
+    refuse(measure, fmt::format("the experiment has no GPU `{:.80}`", *gpu), suggestion(*gpu, gpus));
+  if (gpu == nullptr && gpus.size() > 1)
     refuse(measure, "does not say on which GPU", fmt::format("add gpu= and one of {}", fmt::join(gpus, ", ")));
 }
 
 void a_quantity(const Measure& measure, const Experiment& experiment) {
-  if (!measure.name) refuse(measure, "does not say which", "add name=NAME, of one of [[quantity]]");
-  const auto named = std::ranges::find(experiment.quantities, *measure.name, &NamedQuantity::name);
+  const std::string* const name = measure.word(Selector::name);
+  if (name == nullptr) refuse(measure, "does not say which", "add name=NAME, of one of [[quantity]]");
+  const auto named = std::ranges::find(experiment.quantities, *name, &NamedQuantity::name);
   if (named == experiment.quantities.end()) {
-    refuse(measure, fmt::format("`{:.80}` is not a quantity", *measure.name), "use the name of one of [[quantity]]");
+    refuse(measure, fmt::format("`{:.80}` is not a quantity", *name), "use the name of one of [[quantity]]");
   }
   const MethodSpec& method = experiment.run.methods[select_method(measure.method, texts_of(experiment.run.methods))];
   if (find_quantity(find_method(method), named->quantity) != nullptr) return;
@@ -151,8 +155,8 @@ Add over_samples(std::function<Sample(const Measure&, const Record&)> sample) {
   return [sample = std::move(sample)](const Measure& measure, const std::string& method, const Results& run,
                                       Samples& samples) {
     for (const Record& record : run.records) {
-      if (record.method == method && (!measure.distance || record.distance == *measure.distance) &&
-          (!measure.frame || record.frame == *measure.frame))
+      if (record.method == method && measure.takes(Selector::distance, record.distance) &&
+          measure.takes(Selector::frame, record.frame))
         samples.add(sample(measure, record));
     }
   };
@@ -182,12 +186,13 @@ Add over_causes(std::optional<double> ErrorCauses::*member) {
 
 // Against the run's own reference, or the one of so many samples.
 Sample error_sample(const Measure& measure, const Record& record) {
-  if (!measure.spp) {
+  const std::optional<double> spp = measure.number(Selector::spp);
+  if (!spp) {
     return {.value = record.error ? Figure(record.error->normalized_color) : Figure(),
             .at_noise_floor = at_noise_floor(record),
             .noise_floor = record.error ? record.error->noise_floor : Figure()};
   }
-  const auto other = std::ranges::find(record.other_references, *measure.spp, &OtherReference::spp);
+  const auto other = std::ranges::find(record.other_references, *spp, &OtherReference::spp);
   if (other == record.other_references.end()) return {};
   return {.value = other->normalized_color,
           .at_noise_floor = other->noise_floor && other->normalized_color <= *other->noise_floor,
@@ -206,7 +211,7 @@ template <class Value>
 Add over_gpu(Value GpuCost::*member) {
   return over_samples([member](const Measure& measure, const Record& record) {
     for (const GpuCost& cost : record.gpu_costs) {
-      if (measure.gpu && cost.gpu != *measure.gpu) continue;
+      if (!measure.takes(Selector::gpu, cost.gpu)) continue;
       if (cost.failure) return Sample{.value = {}, .absent = *cost.failure};
       return Sample{.value = static_cast<double>(cost.*member)};
     }
@@ -225,7 +230,7 @@ double shading_ms(const Record& record) {
 Add over_footprints(double FootprintNdf::*member) {
   return [member](const Measure& measure, const std::string& method, const Results& run, Samples& samples) {
     for (const FootprintNdf& figures : run.ndf) {
-      if (figures.method == method && (!measure.footprint || figures.footprint == *measure.footprint))
+      if (figures.method == method && measure.takes(Selector::footprint, figures.footprint))
         samples.add({.value = figures.*member});
     }
   };
@@ -233,14 +238,14 @@ Add over_footprints(double FootprintNdf::*member) {
 
 void add_supersampling(const Measure& measure, const std::string& /*method*/, const Results& run, Samples& samples) {
   for (const SupersamplingPoint& point : run.supersampling) {
-    if (point.spp == measure.spp && (!measure.distance || point.distance == *measure.distance))
+    if (measure.number(Selector::spp) == point.spp && measure.takes(Selector::distance, point.distance))
       samples.add({.value = point.ms, .node = point.node});
   }
 }
 
 void add_quantities(const Measure& measure, const std::string& method, const Results& run, Samples& samples) {
   for (const QuantityFigure& figure : run.quantities) {
-    if (figure.method == method && figure.name == measure.name) samples.add({.value = figure.value});
+    if (figure.method == method && measure.takes(Selector::name, figure.name)) samples.add({.value = figure.value});
   }
 }
 
@@ -304,12 +309,15 @@ std::vector<FigureFunction> function_table() {
 
 // Every value that members are chosen by must be on an axis of the matrix.
 void check_slice(const Measure& measure, const Experiment& experiment) {
-  for (const auto& [key, value] : measure.slice) {
+  for (const Selector selector : axis_selectors) {
+    const std::string* const value = measure.word(selector);
+    if (value == nullptr) continue;
+    const std::string_view key = selector_name(selector);
     const auto axis = std::ranges::find(experiment.axes, key, &Axis::key);
     if (axis == experiment.axes.end())
-      refuse(measure, fmt::format("no matrix varies `{}` here", key), fmt::format("leave {}={} out", key, value));
-    if (!has(axis->values, value))
-      refuse(measure, fmt::format("the matrix has no {} `{:.80}`", key, value), suggestion(value, axis->values));
+      refuse(measure, fmt::format("no matrix varies `{}` here", key), fmt::format("leave {}={} out", key, *value));
+    if (!has(axis->values, *value))
+      refuse(measure, fmt::format("the matrix has no {} `{:.80}`", key, *value), suggestion(*value, axis->values));
   }
 }
 
@@ -336,12 +344,11 @@ void check_measure(const Measure& measure, const Experiment& experiment) {
 }
 
 void check_distance(const Measure& measure, const std::vector<double>& distances, std::size_t frames) {
-  if (measure.frame && static_cast<std::size_t>(*measure.frame) >= frames) {
+  if (measure.number(Selector::frame).value_or(-1) >= static_cast<double>(frames))
     refuse(measure, "no such frame", fmt::format("frames are 0 to {}", frames - 1));
-  }
-  if (measure.distance && !has(distances, *measure.distance)) {
+  const std::optional<double> distance = measure.number(Selector::distance);
+  if (distance && !has(distances, *distance))
     refuse(measure, "the experiment has no such distance", fmt::format("it has {}", fmt::join(distances, ", ")));
-  }
 }
 
 Measured measured(const Measure& measure, std::span<const Results> runs) {

@@ -223,9 +223,11 @@ std::vector<Experiment> members_of_matrix(const Experiment& whole) {
 }
 
 bool selects(const Measure& measure, const Coordinates& member) {
-  return std::ranges::all_of(measure.slice, [&](const auto& wanted) {
-    return std::ranges::any_of(
-        member, [&](const auto& axis) { return axis.first == wanted.first && axis.second == wanted.second; });
+  return std::ranges::all_of(axis_selectors, [&](Selector selector) {
+    const std::string* const wanted = measure.word(selector);
+    return wanted == nullptr || std::ranges::any_of(member, [&](const auto& axis) {
+             return axis.first == selector_name(selector) && axis.second == *wanted;
+           });
   });
 }
 

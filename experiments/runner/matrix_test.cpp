@@ -9,7 +9,7 @@
 #include <set>
 
 #include "experiments/runner/experiment.hpp"
-#include "experiments/runner/judge.hpp"
+#include "experiments/runner/run_experiment.hpp"
 #include "experiments/settings/known_methods.hpp"
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"

@@ -1,14 +1,45 @@
-// Runs an experiment: the comparison, its figures, and what became of its claims.
+// Runs an experiment: the comparison, its figures, and what became of its claims; thresholds within the reference's
+// noise are refused as soon as a run knows that noise and before it times anything.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/studies/compare.hpp"
+#include "results/report/records.hpp"
 
 namespace footprint {
+
+/// Everything but the pictures. A claim is `undecided` where a figure is missing; a threshold without a figure has
+/// not passed. `runs` has the results of this experiment, or those of the members of this matrix.
+[[nodiscard]] ExperimentReport judge(const Experiment& experiment, std::span<const Results> runs);
+
+/// For one experiment or one matrix. A limit on a single error or flicker that is no higher than what the reference's
+/// noise causes of it could be neither passed nor missed. A limit on a mean may include distances and members that are
+/// not measured yet. Noise is at least 0, so the sum of the known floors over the count of all is a lower bound.
+class NoiseGuard {
+ public:
+  /// `judged` has the thresholds, `members` are those that are run: of a matrix some or all, else itself. Stores the
+  /// addresses of both. A quick run is not a measurement, so it refuses nothing. Errors (usage): of their scenes.
+  NoiseGuard(const Experiment& judged, std::span<const Experiment> members);
+
+  /// The watch of a member's run. Errors (usage), while it runs: FILE:LINE of the threshold.
+  [[nodiscard]] RecordWatch watch(const Experiment& member);
+
+ private:
+  void see(std::size_t member, std::span<const Record> records);
+  void check(const Threshold& threshold) const;
+  /// The records that a measure will be over.
+  [[nodiscard]] std::size_t count_of(const Measure& measure) const;
+
+  const Experiment* judged_;
+  std::span<const Experiment> members_;
+  std::vector<Results> known_;                  // per member
+  std::vector<std::vector<double>> distances_;  // per member
+};
 
 /// Shortens the run for a test: a quarter of the size, few samples and texels.
 void make_quick(Experiment& experiment);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 
 #include "experiments/settings/setting.hpp"
 #include "methods/registry.hpp"
@@ -14,26 +13,26 @@
 namespace footprint {
 namespace {
 
-// The settings of histories, whose keys are options of methods too.
-auto history_options() {
-  return std::views::filter(run_settings(), [](const Setting& setting) { return setting.key.starts_with("history"); });
+// The setting of histories of that key, which is an option of methods too; null: there is none.
+const Setting* history_setting(std::string_view key) {
+  const auto found = std::ranges::find_if(
+      run_settings(), [&](const Setting& setting) { return setting.key == key && key.starts_with("history"); });
+  return found == run_settings().end() ? nullptr : &*found;
 }
 
 void read_option(RunSettings& run, const MethodSpec& method, const std::string& name, const std::string& value) {
-  for (const Setting& option : history_options()) {
-    if (option.key == name) option.type.read_text(run, fmt::format("{} of method {}", name, method.name), value);
-  }
+  history_setting(name)->type.read_text(run, fmt::format("{} of method {}", name, method.name), value);
 }
 
 // Moves the options of its history out of those of its maps, whose names are the method's own.
 void separate_history(MethodSpec& method) {
   RunSettings unused;
-  for (const Setting& option : history_options()) {
-    const auto given = method.options.find(std::string(option.key));
-    if (given == method.options.end()) continue;
-    read_option(unused, method, given->first, given->second);
-    method.history.insert(method.options.extract(given));
-  }
+  std::erase_if(method.options, [&](const auto& option) {
+    if (history_setting(option.first) == nullptr) return false;
+    read_option(unused, method, option.first, option.second);
+    method.history.insert(option);
+    return true;
+  });
 }
 
 }  // namespace

@@ -26,12 +26,6 @@ std::string text_at(const TomlTable& table, std::string_view key, const SettingT
   return fmt::format("{}", fmt::join(parts, std::string(1, type.separator)));
 }
 
-void read_setting(const TomlTable& table, std::string_view key, const SettingType& type, RunSettings& run) {
-  const std::string text = text_at(table, key, type);
-  if (text.empty()) throw table.error_at(key, "is empty", "fill it in");
-  at_key(table, key, [&] { type.read_text(run, "", text); });
-}
-
 }  // namespace
 
 std::string_view option_name(const Setting& setting) { return setting.option.substr(0, setting.option.find(',')); }
@@ -53,7 +47,9 @@ void read_settings(const TomlTable& table, std::string_view name, RunSettings& r
   for (const Setting& setting : run_settings()) {
     if (setting.key.empty() || setting.table != name) continue;
     if (table.has(setting.key)) {
-      read_setting(table, setting.key, setting.type, run);
+      const std::string text = text_at(table, setting.key, setting.type);
+      if (text.empty()) throw table.error_at(setting.key, "is empty", "fill it in");
+      at_key(table, setting.key, [&] { setting.type.read_text(run, "", text); });
     } else if (setting.required && std::ranges::find(given, setting.key) == given.end()) {
       refuse_missing(table, setting.key, experiments_document);
     }

@@ -1,11 +1,16 @@
-// The types of a run's settings: the texts that each takes, and the field that the value goes to.
+// The types of a run's settings, for their table alone: the texts that each takes, and the field that the value goes
+// to.
 #pragma once
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -13,6 +18,9 @@
 
 #include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
+#include "renderer/core/memory.hpp"
+#include "renderer/core/numbers.hpp"
+#include "renderer/gpu_cost/estimate.hpp"
 
 namespace footprint::setting_types {
 
@@ -23,70 +31,361 @@ inline constexpr int max_frame_side = 10'000'000;
 template <class Value>
 using Field = Value& (*)(RunSettings& run);
 
-/// Any text.
-[[nodiscard]] SettingType any_text(Field<std::string> field, const char* word);
-
-/// Any text except an empty one.
-[[nodiscard]] SettingType any_name(Field<std::optional<std::string>> field, const char* word);
-
-/// A file's path.
-[[nodiscard]] SettingType file_path(Field<std::optional<std::filesystem::path>> field);
-
-/// A whole number, both ends inclusive; the type's largest value as `high` means no limit.
-[[nodiscard]] SettingType whole_number(Field<int> field, int low, int high);
-[[nodiscard]] SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uint64_t high);
-
-/// A list of whole numbers, each within the range.
-[[nodiscard]] SettingType whole_numbers(Field<std::vector<int>> field, int low, int high);
-
-/// A number above 0.
-[[nodiscard]] SettingType positive_number(Field<std::optional<double>> field, double low, double high);
-[[nodiscard]] SettingType positive_number(Field<double> field, double low, double high);
-
-/// A moment in seconds, of either sign.
-[[nodiscard]] SettingType seconds(Field<std::optional<double>> field);
-
-/// An angle in degrees, in either direction, not 0.
-[[nodiscard]] SettingType angle(Field<std::optional<double>> field, double most);
-
-/// A direction in world space, of any length except 0; stored as a unit vector.
-[[nodiscard]] SettingType direction(Field<std::optional<glm::dvec3>> field);
-
-/// A fixed number of samples per pixel.
-[[nodiscard]] SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high);
-
-/// A target noise floor, or "auto".
-[[nodiscard]] SettingType noise(Field<ReferenceSettings> field);
-
-/// Factors on the camera's distance, at most `most`, all different.
-[[nodiscard]] SettingType distances(Field<std::vector<double>> field, std::size_t most);
-
-/// A frame size. Errors (machine), for an option only: one image of it exceeds memory.
-[[nodiscard]] SettingType frame_size(Field<std::optional<glm::ivec2>> field);
-
-/// A factor on radiance, or "auto" for none.
-[[nodiscard]] SettingType exposure(Field<std::optional<Exposure>> field);
-
-/// A footprint filter.
-[[nodiscard]] SettingType footprint_filter(Field<std::optional<FootprintFilter>> field);
-
 /// Reads comma-separated methods, and checks them; files are relative to `folder`.
 using MethodParser = std::vector<MethodSpec> (*)(const std::string& text, const std::filesystem::path& folder);
 
-/// One method, or `reference`.
-[[nodiscard]] SettingType one_method(Field<std::vector<MethodSpec>> field, MethodParser parse = parse_known_methods);
+inline constexpr double least_noise = 1e-6, most_noise = 1.0;
+inline constexpr double smallest_exposure = 1e-30, largest_exposure = 1e30;
+
+inline Error not_valid(std::string_view option, std::string_view text, std::string_view why, std::string hint) {
+  return {ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, why), std::move(hint)};
+}
+
+// The comma-separated parts of a text; one empty part of an empty text.
+inline std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t stop = std::min(text.find(',', start), text.size());
+    parts.push_back(text.substr(start, stop - start));
+    start = stop + 1;
+  }
+  return parts;
+}
+
+template <typename Number>
+std::string range_text(Number low, Number high) {
+  return high == std::numeric_limits<Number>::max() ? fmt::format("{} or more", low)
+                                                    : fmt::format("{} to {}", low, high);
+}
+
+template <typename Number>
+Number parse_whole_number(Number low, Number high, std::string_view option, std::string_view text) {
+  const auto number = parse_whole_of<Number>(text);
+  if (number && *number >= low && *number <= high) return *number;
+  throw not_valid(option, text, "is not valid", fmt::format("give a whole number, {}", range_text(low, high)));
+}
+
+inline std::vector<int> parse_whole_numbers(int low, int high, std::string_view option, const std::string& text) {
+  std::vector<int> numbers;
+  for (const std::string& part : parts_of(text)) numbers.push_back(parse_whole_number(low, high, option, part));
+  return numbers;
+}
+
+inline double parse_positive(double low, double high, std::string_view option, std::string_view text) {
+  const std::string hint = fmt::format("give a number from {} to {}", low, high);
+  const auto number = parse_whole_of<double>(text);
+  if (!number || !std::isfinite(*number) || *number <= 0.0)
+    throw not_valid(option, text, "is not a positive number", hint);
+  if (*number < low || *number > high)
+    throw not_valid(option, text, fmt::format("is not within {} to {}", low, high), hint);
+  return *number;
+}
+
+inline double parse_angle(double most, std::string_view option, std::string_view text) {
+  const auto number = parse_whole_of<double>(text);
+  if (number && std::abs(*number) <= most && *number != 0.0) return *number;
+  throw not_valid(option, text, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
+}
+
+inline double parse_seconds(std::string_view option, std::string_view text) {
+  const auto number = parse_whole_of<double>(text);
+  if (number && std::abs(*number) <= largest_seconds) return *number;
+  throw not_valid(option, text, "is not a time", fmt::format("give seconds from -{0} to {0}", largest_seconds));
+}
+
+inline glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& part : parts_of(text)) {
+    if (const auto number = parse_whole_of<double>(part); number && std::isfinite(*number)) values.push_back(*number);
+  }
+  const glm::dvec3 direction =
+      values.size() == 3 && parts_of(text).size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(0);
+  const double length = glm::length(direction);
+  if (length > 0.0 && std::isfinite(length)) return direction / length;
+  throw not_valid(option, text, "is not a direction", "give X,Y,Z in the world, for example 0,1,0");
+}
+
+inline int parse_side(std::string_view option, std::string_view size, std::string_view digits) {
+  const std::string hint = "give WIDTHxHEIGHT in pixels, for example 512x512";
+  const bool is_count = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+  if (!is_count) throw not_valid(option, size, "is not a frame size", hint);
+  // Digits that do not fit the type are a number too, far over the limit.
+  const auto side = parse_whole_of<std::uint64_t>(digits).value_or(std::numeric_limits<std::uint64_t>::max());
+  if (side == 0) throw not_valid(option, size, "has no pixels", hint);
+  if (side > max_frame_side)
+    throw not_valid(option, size, fmt::format("has a side of more than {} pixels", max_frame_side), hint);
+  return static_cast<int>(side);
+}
+
+inline glm::ivec2 parse_size(std::string_view option, std::string_view text) {
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  const std::string_view height = cross < text.size() ? text.substr(cross + 1) : std::string_view();
+  const glm::ivec2 size{parse_side(option, text, text.substr(0, cross)), parse_side(option, text, height)};
+  if (option.empty()) return size;  // an experiment may be listed and checked on a machine that is too small to run it
+  constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
+  require_memory(frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes),
+                 fmt::format("an image of {}x{}", size.x, size.y));
+  return size;
+}
+
+inline std::vector<double> parse_distances(std::size_t most, std::string_view option, const std::string& text) {
+  std::vector<double> distances;
+  for (const std::string& part : parts_of(text)) {
+    const double distance = parse_positive(smallest_distance, largest_distance, option, part);
+    if (std::ranges::find(distances, distance) != distances.end())
+      throw not_valid(option, part, "is given twice", "give each once");
+    distances.push_back(distance);
+  }
+  if (distances.size() > most) throw not_valid(option, text, "is more than one distance", "give one");
+  return distances;
+}
+
+inline std::optional<Exposure> parse_exposure(std::string_view option, std::string_view text) {
+  if (text == "auto") return std::nullopt;
+  const auto factor = parse_whole_of<double>(text);
+  if (!factor || !(*factor >= smallest_exposure && *factor <= largest_exposure))
+    throw not_valid(option, text, "is not an exposure", "give `auto` or a positive factor on radiance");
+  return Exposure{.factor = static_cast<float>(*factor),
+                  .source = option.empty() ? ExposureSource::experiment : ExposureSource::command_line};
+}
+
+inline MethodSpec parse_one_method(std::string_view option, const std::string& text,
+                                   const std::filesystem::path& folder, MethodParser parse) {
+  if (text == "reference") return {.text = text, .name = text, .options = {}};
+  const std::vector<MethodSpec> methods = parse(text, folder);
+  if (methods.size() == 1) return methods.front();
+  throw not_valid(option, text, "is more than one method", "name one");
+}
+
+inline std::string parse_name(const char* hint, std::string_view option, const std::string& text) {
+  if (text.empty()) throw not_valid(option, text, "is empty", hint);
+  return text;
+}
+
+inline FootprintFilter parse_filter(std::string_view option, const std::string& text) {
+  return parse_footprint_filter(text, option);
+}
+
+inline std::vector<std::string> parse_gpus(std::string_view option, const std::string& text) {
+  std::vector<std::string> names;
+  for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
+  return names;
+}
+
+inline EffectSet parse_effects(std::string_view option, const std::string& text) {
+  const std::vector<std::string> names = effect_names(EffectSet{}.set());
+  EffectSet effects;
+  for (const std::string& word : parts_of(text)) effects.set(find_word(names, word, "effect", option));
+  return effects;
+}
+
+// A value as a text: none of a value that is missing.
+template <class Value>
+std::string written(const Value& value) {
+  if constexpr (requires { value.has_value(); }) {
+    return value ? written(*value) : std::string();
+  } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+    return value.string();
+  } else {
+    return fmt::format("{}", value);
+  }
+}
+
+// A value of which `parse(option, text)` makes what the field stores.
+template <class Value, class Parse, class Write>
+SettingType typed(Field<Value> field, std::string word, std::string takes, Parse parse, Write write) {
+  return {.word = std::move(word),
+          .takes = std::move(takes),
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run) = parse(option, text); },
+          .text = [=](RunSettings run) { return std::string(write(field(run))); }};
+}
+
+template <class Value, class Parse>
+SettingType typed(Field<Value> field, std::string word, std::string takes, Parse parse) {
+  return typed(field, std::move(word), std::move(takes), parse, written<Value>);
+}
+
+// The same of a value that is a list in a file, whose parts `separator` joins in a text.
+inline SettingType listed(SettingType type, std::string file_takes, char separator = ',') {
+  type.file_takes = std::move(file_takes);
+  type.separator = separator;
+  return type;
+}
+
+template <class Number>
+SettingType whole_number_of(Field<Number> field, Number low, Number high) {
+  return typed(field, "N", range_text(low, high), std::bind_front(parse_whole_number<Number>, low, high));
+}
+
+template <class Value>
+SettingType positive(Field<Value> field, double low, double high) {
+  return typed(field, "X", fmt::format("{} to {}", low, high), std::bind_front(parse_positive, low, high));
+}
+
+inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
+
+/// Any text.
+[[nodiscard]] inline SettingType any_text(Field<std::string> field, const char* word) {
+  return typed(field, word, "", [](std::string_view, const std::string& text) { return text; });
+}
+
+/// Any text except an empty one.
+[[nodiscard]] inline SettingType any_name(Field<std::optional<std::string>> field, const char* word) {
+  return typed(field, word, "", std::bind_front(parse_name, "give a name, or a number from 0"));
+}
+
+/// A file's path.
+[[nodiscard]] inline SettingType file_path(Field<std::optional<std::filesystem::path>> field) {
+  return typed(field, "FILE", "", std::bind_front(parse_name, "name a file"));
+}
+
+/// A whole number, both ends inclusive; the type's largest value as `high` means no limit.
+[[nodiscard]] inline SettingType whole_number(Field<int> field, int low, int high) {
+  return whole_number_of(field, low, high);
+}
+
+[[nodiscard]] inline SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uint64_t high) {
+  return whole_number_of(field, low, high);
+}
+
+/// A list of whole numbers, each within the range.
+[[nodiscard]] inline SettingType whole_numbers(Field<std::vector<int>> field, int low, int high) {
+  const auto write = [](const auto& all) { return all.empty() ? "" : fmt::format("[{}]", fmt::join(all, ", ")); };
+  return listed(typed(field, "LIST", "", std::bind_front(parse_whole_numbers, low, high), write),
+                fmt::format("a list, each {} to {}", low, high));
+}
+
+/// A number above 0.
+[[nodiscard]] inline SettingType positive_number(Field<std::optional<double>> field, double low, double high) {
+  return positive(field, low, high);
+}
+
+[[nodiscard]] inline SettingType positive_number(Field<double> field, double low, double high) {
+  return positive(field, low, high);
+}
+
+/// An angle in degrees, in either direction, not 0.
+[[nodiscard]] inline SettingType angle(Field<std::optional<double>> field, double most) {
+  return typed(field, "DEGREES", fmt::format("-{0} to {0}", most), std::bind_front(parse_angle, most));
+}
+
+/// A moment in seconds, of either sign.
+[[nodiscard]] inline SettingType seconds(Field<std::optional<double>> field) {
+  return typed(field, "SECONDS", fmt::format("-{0} to {0}", largest_seconds), parse_seconds);
+}
+
+/// A direction in world space, of any length except 0; stored as a unit vector.
+[[nodiscard]] inline SettingType direction(Field<std::optional<glm::dvec3>> field) {
+  const auto write = [](const auto& axis) { return axis ? fmt::format("{},{},{}", axis->x, axis->y, axis->z) : ""; };
+  return typed(field, "X,Y,Z", "", parse_direction, write);
+}
+
+/// A fixed number of samples per pixel.
+[[nodiscard]] inline SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
+  return {.word = "N",
+          .takes = range_text(low, high),
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                field(run).spp = parse_whole_number(low, high, option, text);
+                field(run).fixed_spp = true;
+              },
+          .text = [=](RunSettings run) { return fmt::format("{}", field(run).spp); }};
+}
+
+/// A target noise floor, or "auto".
+[[nodiscard]] inline SettingType noise(Field<ReferenceSettings> field) {
+  return {.word = "X",
+          .takes = fmt::format("{} to {}, or auto", least_noise, most_noise),
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                field(run).by_noise = true;
+                field(run).noise = text == "auto"
+                                       ? std::nullopt
+                                       : std::optional(parse_positive(least_noise, most_noise, option, text));
+              },
+          .text =
+              [=](RunSettings run) {
+                if (!field(run).by_noise) return std::string();
+                return field(run).noise ? fmt::format("{}", *field(run).noise) : std::string("auto");
+              }};
+}
+
+/// Factors on the camera's distance, at most `most`, all different.
+[[nodiscard]] inline SettingType distances(Field<std::vector<double>> field, std::size_t most) {
+  const std::string range = fmt::format("{} to {}", smallest_distance, largest_distance);
+  const bool is_one = most == 1;
+  return listed(typed(field, is_one ? "X" : "LIST", is_one ? range : range + " each, comma-separated",
+                      std::bind_front(parse_distances, most), joined),
+                "a list, each " + range);
+}
+
+/// A frame size. Errors (machine), for an option only: one image of it exceeds memory.
+[[nodiscard]] inline SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
+  const auto write = [](const auto& size) { return size ? fmt::format("{}x{}", size->x, size->y) : ""; };
+  const std::string takes = fmt::format("1 to {} per side, as memory permits", max_frame_side);
+  return listed(typed(field, "WIDTHxHEIGHT", takes, parse_size, write),
+                fmt::format("[width, height] or \"WIDTHxHEIGHT\", 1 to {} each", max_frame_side), 'x');
+}
+
+/// A factor on radiance, or "auto" for none.
+[[nodiscard]] inline SettingType exposure(Field<std::optional<Exposure>> field) {
+  const auto write = [](const auto& exposure) { return exposure ? fmt::format("{}", exposure->factor) : "auto"; };
+  return typed(field, "X", "above 0, or auto", parse_exposure, write);
+}
+
+/// A footprint filter.
+[[nodiscard]] inline SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
+  const auto write = [](const auto& filter) { return filter ? footprint_filter_text(*filter) : ""; };
+  return typed(field, "FILTER", footprint_filter_choices(), parse_filter, write);
+}
 
 /// Methods; in a file also "all".
-[[nodiscard]] SettingType methods(Field<std::vector<MethodSpec>> field, MethodParser parse = parse_known_methods);
+[[nodiscard]] inline SettingType methods(Field<std::vector<MethodSpec>> field,
+                                         MethodParser parse = parse_known_methods) {
+  return {.word = "LIST",
+          .takes = "name, FILE.glsl or name:option=value each, comma-separated",
+          .file_takes =
+              R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for all but slow ones with their defaults)",
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                const bool are_all = option.empty() && text == "all";  // in files
+                field(run) = are_all ? every_method() : parse(text, run.method_folder);
+              },
+          .text = [=](RunSettings run) { return joined(texts_of(field(run))); },
+          .separator = ','};
+}
+
+/// One method, or `reference`.
+[[nodiscard]] inline SettingType one_method(Field<std::vector<MethodSpec>> field,
+                                            MethodParser parse = parse_known_methods) {
+  return {.word = "M",
+          .takes = "name or FILE.glsl, or name:option=value",
+          .read_text =
+              [=](RunSettings& run, std::string_view option, const std::string& text) {
+                field(run) = {parse_one_method(option, text, run.method_folder, parse)};
+              },
+          .text = methods(field).text};
+}
 
 /// A set of effects, by name.
-[[nodiscard]] SettingType effects(Field<EffectSet> field);
+[[nodiscard]] inline SettingType effects(Field<EffectSet> field) {
+  const auto write = [](const EffectSet& effects) { return joined(effect_names(effects)); };
+  return listed(typed(field, "LIST", "as cast_shadow,fresnel", parse_effects, write), R"(a list as ["cast_shadow"])");
+}
 
 /// GPUs whose cost is estimated, by name.
-[[nodiscard]] SettingType gpus(Field<std::vector<std::string>> field);
+[[nodiscard]] inline SettingType gpus(Field<std::vector<std::string>> field) {
+  const std::string takes = fmt::format("{}, all", fmt::join(chip_names(), ", "));
+  return listed(typed(field, "NAME,...", takes, parse_gpus, joined),
+                R"(a list as ["Steam Deck", "RX 6800"], or ["all"])");
+}
 
 /// A flag that unsets a folder.
-[[nodiscard]] SettingType no_folder(Field<std::optional<std::filesystem::path>> field);
+[[nodiscard]] inline SettingType no_folder(Field<std::optional<std::filesystem::path>> field) {
+  return typed(
+      field, "", "", [](std::string_view, const std::string&) { return std::nullopt; }, [](const auto&) { return ""; });
+}
 
 /// One of some words; `what` names them in errors.
 template <class Value, std::size_t count>

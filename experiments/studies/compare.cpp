@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "experiments/settings/known_methods.hpp"
-#include "experiments/studies/distance_result.hpp"
+#include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/reference_view.hpp"
-#include "experiments/studies/run_info.hpp"
+#include "experiments/studies/stage.hpp"
 #include "experiments/studies/views.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
@@ -39,9 +39,8 @@ double weight_of_methods(const RunSettings& settings) {
 struct Workbench {
   Workbench(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const std::filesystem::path& folder,
             const Progress& staging, ProgressParts& progress, SharedReferences* shared, const GpuCompiler& compiler)
-      : stage(std::move(scene), settings, staging, pictures_of_a_frame,
-              is_animation(settings) ? Unit::none : Unit::direct,
-              is_animation(settings) ? Refusal::ends_the_run : Refusal::is_recorded),
+      : stage(std::move(scene), settings, staging,
+              {.has_unit = !is_animation(settings), .records_refusals = !is_animation(settings)}),
         frames(stage, settings),
         measurer(stage),
         references(settings, stage, folder, progress, shared) {
@@ -101,6 +100,14 @@ struct Job {
     if (context.finished != nullptr) context.finished->store(run + "/" + part, value, folder, files);
   }
 
+  // The times that other processes took in a view; they take those of all views at once.
+  [[nodiscard]] std::vector<DistanceTimes> further_times(std::size_t view) {
+    if (!further) further = context.further_times ? context.further_times() : std::vector<FrameTimes>{};
+    std::vector<DistanceTimes> own;
+    for (const FrameTimes& process : *further) own.push_back(process.at(view));
+    return own;
+  }
+
   [[nodiscard]] std::string fingerprint() const {
     SharedWork* const shared = context.shared;
     const std::string content = shared != nullptr ? shared->content : scene_content(loaded());
@@ -121,6 +128,7 @@ struct Job {
   std::vector<RunView> views;
   ProgressParts progress;
   std::string run;  // fingerprint, if work is stored
+  std::optional<std::vector<FrameTimes>> further{};
 };
 
 // The frame before, against which flicker is measured.
@@ -192,17 +200,18 @@ Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& 
   Workbench& bench = job.workbench();
   const std::string& text = job.settings.methods[index].text;
   const std::string prefix = fmt::format("{}: {}, ", view_words(job.settings, target.index, target.at), text);
-  MethodPictures pictures{.frame = bench.frames.render(index, job.views, target.index, target.view), .finest = {}};
-  if (job.settings.reference.by_cause) pictures.finest = finest_level(job, target, staged, prefix);
+  Image frame = bench.frames.render(index, job.views, target.index, target.view);
+  std::optional<Image> finest;
+  if (job.settings.reference.by_cause) finest = finest_level(job, target, staged, prefix);
   bench.stage.context().check("rendering " + text);
-  record = bench.measurer.measure(staged, pictures, target, exposure);
+  record = bench.measurer.measure(staged, frame, finest, target, exposure);
   const std::string stem = view_stem(job.settings, target.index, target.at, method_stem(job.settings.methods, index));
-  record.images.color = write_page_picture(job.folder, stem, pictures.frame, exposure);
+  record.images.color = write_page_picture(job.folder, stem, frame, exposure);
   if (!is_animation(job.settings)) {
     bench.measurer.count_work(record, staged, target.view);
     if (bench.gpu_costs) record.gpu_costs = bench.gpu_costs->costs(staged, target.view, no_progress).gpus;
   }
-  return std::move(pictures.frame);
+  return frame;
 }
 
 // The same, or a record that says why the method failed. Errors: an animation has no frame without all its methods.
@@ -317,23 +326,6 @@ DistanceResult measure_images(Job& job, std::size_t i, const Exposure& exposure,
   return result;
 }
 
-// The times of other processes, taken once.
-class OtherProcesses {
- public:
-  explicit OtherProcesses(const FurtherTimes& take) : take_(take) {}
-
-  [[nodiscard]] std::vector<DistanceTimes> of(std::size_t view) {
-    if (!times_) times_ = take_ ? take_() : std::vector<FrameTimes>{};
-    std::vector<DistanceTimes> own;
-    for (const FrameTimes& process : *times_) own.push_back(process.at(view));
-    return own;
-  }
-
- private:
-  const FurtherTimes& take_;
-  std::optional<std::vector<FrameTimes>> times_;
-};
-
 Exposure exposure_of(Job& job) {
   const std::optional<Exposure>& given = job.settings.view.exposure;
   if (given || job.loaded().exposure) return choose_exposure(given, job.loaded(), {});
@@ -343,7 +335,7 @@ Exposure exposure_of(Job& job) {
 // Measures the views in turn, or reads them back.
 class Views {
  public:
-  explicit Views(Job& job) : job_(job), processes_(job.context.further_times) {}
+  explicit Views(Job& job) : job_(job) {}
 
   DistanceResult next(std::size_t i) {
     if (auto finished = finished_view(job_, i)) {
@@ -362,7 +354,7 @@ class Views {
     if (is_animation(job_.settings)) {
       for (Record& record : result.records) set_no_times(record);
     } else {
-      std::vector<DistanceTimes> times = processes_.of(i);
+      std::vector<DistanceTimes> times = job_.further_times(i);
       times.push_back(time_view(job_, i));
       result.processes = static_cast<int>(times.size());
       set_times(result.records, job_.workbench().stage, times);
@@ -374,7 +366,6 @@ class Views {
 
  private:
   Job& job_;
-  OtherProcesses processes_;
   std::optional<Exposure> exposure_;
   std::optional<FrameBefore> before_;                             // on a path
   std::optional<std::pair<std::size_t, DistanceResult>> last_{};  // the view before, with its index

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "experiments/studies/picture_files.hpp"
-#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"

@@ -1,5 +1,5 @@
 // Errors by cause on pictures of a few pixels, and which parts of a picture an exact sum is afforded for.
-#include "experiments/studies/error_causes.hpp"
+#include "experiments/studies/reference_view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,24 @@
-// Parts as JSON under a checksum; files are hard links where the file system allows them.
+// Parts as JSON under a checksum; files are hard links where the file system allows them. Structured bindings list
+// every setting for the fingerprint, so a new one does not compile until it is considered here. Views are joined: their
+// records in order, the worst of their errors, and all warnings.
 #include "experiments/studies/finished_work.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <system_error>
 #include <utility>
 
+#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/stage.hpp"
+#include "experiments/studies/views.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/files.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {
@@ -28,15 +36,9 @@ std::optional<std::vector<std::uint8_t>> bytes_of(const fs::path& file) {
   }
 }
 
-std::string hash_of(std::string_view text) {
+std::string hash_of(const auto& content) {
   ContentHash hash;
-  hash.add(text);
-  return hash.hex();
-}
-
-std::string hash_of(const std::vector<std::uint8_t>& bytes) {
-  ContentHash hash;
-  hash.add(std::as_bytes(std::span(bytes)));
+  hash.add(std::as_bytes(std::span(content)));
   return hash.hex();
 }
 
@@ -67,6 +69,69 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
   if (failed) write_file_atomically(to, read_file_bytes(from, largest_file));
 }
 
+// Without a number, `word`.
+std::string number_or(const std::optional<double>& value, const char* word) {
+  return value ? fmt::format("{}", *value) : word;
+}
+
+std::string filter_or(const std::optional<FootprintFilter>& filter, const char* word) {
+  return filter ? footprint_filter_text(*filter) : word;
+}
+
+// A distance does not depend on the others, except for the first, which decides an automatic exposure, and for the
+// frame before it in a zoom.
+void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene) {
+  const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
+  const glm::ivec2 pixels = frame_size(scene, size);
+  hash.add(fmt::format("{}x{}", pixels.x, pixels.y));
+  const std::vector<RunView> all = run_views(settings, scene);
+  for (const RunView& view : std::span(all).first(zoom.frames > 0 ? all.size() : 1))
+    hash.add(fmt::format("{} {} {}", view.distance, view.degrees, view.seconds));
+  hash.add(exposure ? fmt::format("{} {}", exposure->factor, static_cast<int>(exposure->source)) : "default");
+  hash.add(fmt::format("{} {}", zoom.frames, number_or(error_scale, "auto")));
+  const auto& [kind, degrees, axis, until] = settings.path;
+  hash.add(fmt::format("{} {} {}", kind ? static_cast<int>(*kind) : -1, number_or(degrees, "default"),
+                       number_or(until, "default")));
+  if (axis) hash.add(fmt::format("{} {} {}", axis->x, axis->y, axis->z));
+}
+
+void add_reference(ContentHash& hash, const ReferenceSettings& reference) {
+  const auto& [spp, by_noise, fixed_spp, noise, spp_max, other_spp, supersampling, seed, filter, environment, bound,
+               by_cause] = reference;
+  hash.add(fmt::format("{} {} {} {} {}", spp, by_noise, fixed_spp, number_or(noise, "auto"), spp_max));
+  hash.add(fmt::format("{} / {}", fmt::join(other_spp, " "), fmt::join(supersampling, " ")));
+  hash.add(fmt::format("{} {} {} {} {}", seed, static_cast<int>(filter), static_cast<int>(environment),
+                       static_cast<int>(bound), by_cause));
+}
+
+void append(std::vector<std::string>& texts, const std::vector<std::string>& more) {
+  texts.insert(texts.end(), more.begin(), more.end());
+}
+
+std::vector<std::string> warnings_of(const DistanceResult& result) {
+  std::vector<std::string> warnings;
+  for (const Record& record : result.records) {
+    if (record.failure)
+      warnings.push_back(fmt::format("distance {:g}: {} failed: {}", record.distance, record.method, *record.failure));
+  }
+  append(warnings, result.warnings);
+  if (auto warning = linear_measures_warning(result.distance, result.standard_error))
+    warnings.push_back(std::move(*warning));
+  return warnings;
+}
+
+// The scales of false-colour images, which an animation has none of.
+void set_error_scales(Results& results, const ComparisonHead& head, const std::vector<DistanceResult>& views) {
+  if (head.way) return;
+  double largest_error = 0;
+  for (const DistanceResult& result : views) {
+    largest_error = std::max(largest_error, result.largest_error);
+    results.error_scales.push_back(
+        {.distance = result.distance, .error = error_scale(result.largest_error, head.error_scale)});
+  }
+  results.error_scale = error_scale(largest_error, head.error_scale);
+}
+
 }  // namespace
 
 FinishedWork::FinishedWork(fs::path folder, std::string maker, bool complete)
@@ -83,7 +148,7 @@ fs::path FinishedWork::path_of(const std::string& key) const { return folder_ / 
 fs::path FinishedWork::run_folder(const std::string& key) const { return path_of(key).parent_path(); }
 
 // The first line of a part is the hash of the rest.
-std::optional<FinishedWork::Part> FinishedWork::read(const std::string& key) const {
+Json FinishedWork::read(const std::string& key) const {
   const auto bytes = is_within(key) ? bytes_of(path_of(key)) : std::nullopt;
   if (!bytes) return {};
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -92,16 +157,14 @@ std::optional<FinishedWork::Part> FinishedWork::read(const std::string& key) con
   const Json document = Json::parse(text.substr(line + 1), nullptr, false);
   if (!document.is_object() || !document.contains("files") || !document.contains("value")) return {};
   if (!document.contains("key") || document["key"] != key) return {};
-  Part part{.files = {}, .value = document["value"]};
   for (const auto& [name, hash] : document["files"].items()) {
     if (!is_within(name) || hash_of_file(run_folder(key) / name) != hash) return {};
-    part.files.push_back({name, hash});
   }
-  return part;
+  return document;
 }
 
-void FinishedWork::put_files(const std::string& key, const Part& part, const fs::path& output) const {
-  for (const File& file : part.files) link_or_copy(run_folder(key) / file.name, output / file.name);
+void FinishedWork::put_files(const std::string& key, const Json& part, const fs::path& output) const {
+  for (const auto& [name, hash] : part["files"].items()) link_or_copy(run_folder(key) / name, output / name);
 }
 
 void FinishedWork::write(const std::string& key, Json value, const fs::path& output,
@@ -119,13 +182,13 @@ void FinishedWork::write(const std::string& key, Json value, const fs::path& out
 }
 
 void FinishedWork::take(const std::string& key, const FinishedWork& from) const {
-  const std::optional<Part> part = from.read(key);
-  if (!part)
+  const Json part = from.read(key);
+  if (part.is_null())
     throw Error(ErrorKind::usage, from.path_of(key).string(), "is missing or damaged, or one of its files is",
                 "run that part again");
   std::vector<std::string> names;
-  for (const File& file : part->files) names.push_back(file.name);
-  write(key, part->value, from.run_folder(key), names);
+  for (const auto& [name, hash] : part["files"].items()) names.push_back(name);
+  write(key, part["value"], from.run_folder(key), names);
 }
 
 void FinishedWork::require_more_allowed(const std::string& scene) const {
@@ -146,5 +209,80 @@ std::string maker_of_work(std::string_view renderer) {
 }
 
 bool is_made_by_this_program(std::string_view maker) { return maker.starts_with(maker_of_work("")); }
+
+std::string scene_content(const Scene& scene) {
+  ContentHash hash;
+  add_content(hash, scene);
+  return hash.hex();
+}
+
+std::string run_fingerprint(std::string_view maker, const RunSettings& settings, const Scene& scene,
+                            const std::string& content, const std::vector<std::string>& more) {
+  ContentHash hash;
+  hash.add(maker);
+  hash.add(content);
+  hash.add(scene.source);
+  hash.add(settings.without.to_string());
+  hash.add(fmt::format("{} {} {}", settings.backend.tile, settings.by_material,
+                       footprint_filter_text(footprint_filter_of(settings, scene))));
+  for (const MethodSpec& method : settings.methods) {
+    hash.add(method.text);
+    if (method.file) hash.add(method.file->file_content);
+  }
+  hash.add(fmt::format("{}", fmt::join(settings.gpus, ",")));
+  add_view(hash, settings, scene);
+  add_reference(hash, settings.reference);
+  const auto& [frames, alpha, clamp, jitter] = settings.history;
+  if (frames > 0) hash.add(fmt::format("history {} {} {} {}", frames, alpha, word_for(history_clamps, clamp), jitter));
+  const auto& [repeats, processes, unit] = settings.timing;
+  hash.add(fmt::format("{} {} {}", repeats, processes, filter_or(unit, "the methods'")));
+  for (const std::string& text : more) hash.add(text);
+  return hash.hex();
+}
+
+std::string frame_name(std::size_t index) { return fmt::format("frame_{:04}", index); }
+
+Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>& views) {
+  Results results;
+  results.backend = head.backend;
+  results.scene = head.scene;
+  results.footprint = head.footprint;
+  results.way = head.way;
+  const Exposure& exposure = views.front().exposure;
+  results.scene.exposure = exposure.factor;
+  results.scene.exposure_source = word_for(exposure_sources, exposure.source);
+  results.reference = head.reference;
+  results.timing = {.frames = head.timed_frames, .processes = views.back().processes};
+  append(results.scene.warnings, head.first_warnings);
+  for (const DistanceResult& result : views) {
+    results.reference.standard_errors.push_back(result.standard_error);
+    results.reference.samples += result.samples;
+    results.reference.seconds += result.seconds;
+    std::ranges::copy(result.records, std::back_inserter(results.records));
+    std::ranges::copy(result.pairs, std::back_inserter(results.pairs));
+    std::ranges::copy(result.curve, std::back_inserter(results.supersampling));
+    if (!head.way) append(results.scene.warnings, warnings_of(result));  // ranking_warnings has one for all frames
+  }
+  append(results.scene.warnings, head.last_warnings);
+  results.reference.samples /= static_cast<double>(views.size());
+  set_error_scales(results, head, views);
+  return results;
+}
+
+Results joined_animation(const FinishedWork& finished, const std::string& run, const std::filesystem::path& folder) {
+  const auto damaged = [&](const std::string& what) {
+    return Error(ErrorKind::usage, finished.folder().string(), what + " is missing or damaged",
+                 "run the part that has it again");
+  };
+  const auto head = finished.find<ComparisonHead>(run + "/head", folder);
+  if (!head) throw damaged("the description of the animation");
+  std::vector<DistanceResult> frames;
+  for (std::size_t i = 0; i < head->frames; ++i) {
+    auto frame = finished.find<DistanceResult>(run + "/" + frame_name(i), folder);
+    if (!frame) throw damaged(fmt::format("frame {} of {}", i + 1, head->frames));
+    frames.push_back(std::move(*frame));
+  }
+  return results_of(*head, frames);
+}
 
 }  // namespace footprint

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/gpu_cost/estimate.hpp"
@@ -16,24 +15,19 @@ namespace {
 
 constexpr int most_unrolled_lights = 4;  // of a kind; further ones cost what the last one adds
 
-// Constant numbers of rounds, and how often a program with them counts.
-struct WeighedTrips {
-  FixedTrips trips;
-  double weight = 1;
-};
-
-// The programs of a frame: one with a single round per loop, and one per kind of loop with one round more.
-std::vector<WeighedTrips> weighed_trips(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
+// The constant numbers of rounds of a frame's programs, and how often each counts: one with a single round per loop,
+// and one per kind of loop with one round more.
+std::vector<std::pair<FixedTrips, double>> weighed_trips(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
   const auto unrolled = [](std::size_t count) { return std::clamp(static_cast<int>(count), 1, most_unrolled_lights); };
   FixedTrips base;
   std::ranges::transform(lights.of, base.lights.begin(), unrolled);
-  std::vector<WeighedTrips> programs{{base, 1.0}};
+  std::vector<std::pair<FixedTrips, double>> programs{{base, 1.0}};
   const auto add = [&](auto rounds_of, double further) {
     if (further <= 0) return;
     FixedTrips longer = base;
     ++rounds_of(longer);
-    programs.front().weight -= further;
-    programs.push_back({longer, further});
+    programs.front().second -= further;
+    programs.emplace_back(longer, further);
   };
   add([](FixedTrips& t) -> int& { return t.probes; }, trips.probes - 1);
   add([](FixedTrips& t) -> int& { return t.lobes; }, trips.lobes - 1);
@@ -98,7 +92,7 @@ bool is_copy(const RecordedDraw& draw) { return draw.fragment.empty(); }
 // Those of the forward pass and of the passes before it.
 std::vector<CostedProgram> programs_of(const CostedFrame& frame) {
   std::vector<CostedProgram> programs;
-  for (const WeighedProgram& one : frame.programs) programs.push_back(one.program);
+  for (const auto& [program, weight] : frame.programs) programs.push_back(program);
   for (const RecordedDraw& draw : frame.passes) {
     if (!is_copy(draw)) programs.push_back(program_of(draw));
   }
@@ -194,11 +188,12 @@ MethodCosts GpuCosts::own_costs(const StagedMethod& method, const View& view, co
   return costs;
 }
 
-std::vector<WeighedProgram> GpuCosts::weighed_programs(const StagedMethod& method, const PixelTrips& trips) const {
-  std::vector<WeighedProgram> programs;
-  for (const WeighedTrips& one : weighed_trips(trips, stage_.gpu_scene().light_counts())) {
-    const ForwardShaders shaders = stage_.program_for_cost(method, one.trips).shaders;
-    programs.push_back({{.vertex = shaders.vertex, .fragment = shaders.fragment.text()}, one.weight});
+std::vector<std::pair<CostedProgram, double>> GpuCosts::weighed_programs(const StagedMethod& method,
+                                                                         const PixelTrips& trips) const {
+  std::vector<std::pair<CostedProgram, double>> programs;
+  for (const auto& [rounds, weight] : weighed_trips(trips, stage_.gpu_scene().light_counts())) {
+    const ForwardShaders shaders = stage_.program_for_cost(method, rounds).shaders;
+    programs.emplace_back(CostedProgram{.vertex = shaders.vertex, .fragment = shaders.fragment.text()}, weight);
   }
   return programs;
 }
@@ -233,10 +228,10 @@ GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
     return cost;
   }
   std::vector<WeighedWork> works;
-  for (const WeighedProgram& one : frame.programs)
-    works.push_back({one.weight, shader_work(chip.compiled.at(one.program).stage->code, chip.between_descriptors)});
+  for (const auto& [program, weight] : frame.programs)
+    works.push_back({weight, shader_work(chip.compiled.at(program).stage->code, chip.between_descriptors)});
   cost = estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes, frame.work.finest_areas);
-  set_statistics(cost, *chip.compiled.at(frame.programs.front().program).stage);
+  set_statistics(cost, *chip.compiled.at(frame.programs.front().first).stage);
   if (frame.work.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.work.pixels;
   cost.cost_ns += cost.passes_ns;
   return cost;
@@ -263,7 +258,7 @@ double GpuCosts::passes_ns(const CompilingChip& chip, const CostedFrame& frame) 
 CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compile, const Progress& progress) {
   ProgressParts parts(progress, 10);
   const Stage stage(load_scene(settings.scene, settings.scene_library, settings.overrides), settings, parts.next(4, ""),
-                    pictures_of_a_frame, Unit::none, Refusal::is_recorded);
+                    {.records_refusals = true});
   const View view = stage.view(distance_of(settings));
   GpuCosts gpus(stage, settings.gpus, compile);
   CostReport report;

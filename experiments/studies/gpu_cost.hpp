@@ -24,19 +24,14 @@ struct CostedProgram {
   friend auto operator<=>(const CostedProgram&, const CostedProgram&) = default;
 };
 
-/// A program, and how often it counts in a frame (WeighedWork::weight).
-struct WeighedProgram {
-  CostedProgram program;
-  double weight = 1;
-};
-
 /// The work of a method's frame on any GPU.
 struct CostedFrame {
-  std::string name;                      ///< of the method, for messages
-  std::vector<WeighedProgram> programs;  ///< one with a single round per loop first
-  std::map<int, TextureCost> textures;   ///< by unit
-  RecordedDraws passes;                  ///< that each frame repeats before it draws
-  PixelWork work;                        ///< counted on the software renderer
+  std::string name;  ///< of the method, for messages
+  /// Each with how often it counts in a frame (WeighedWork::weight); one with a single round per loop first.
+  std::vector<std::pair<CostedProgram, double>> programs;
+  std::map<int, TextureCost> textures;  ///< by unit
+  RecordedDraws passes;                 ///< that each frame repeats before it draws
+  PixelWork work;                       ///< counted on the software renderer
 };
 
 /// The costs of a stage's methods. Stores what is compiled, so that further views only count again.
@@ -63,7 +58,8 @@ class GpuCosts {
   };
   void compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress);
   [[nodiscard]] MethodCosts own_costs(const StagedMethod& method, const View& view, const Progress& progress);
-  [[nodiscard]] std::vector<WeighedProgram> weighed_programs(const StagedMethod& method, const PixelTrips& trips) const;
+  [[nodiscard]] std::vector<std::pair<CostedProgram, double>> weighed_programs(const StagedMethod& method,
+                                                                               const PixelTrips& trips) const;
   [[nodiscard]] static GpuCost cost_of(const CompilingChip& chip, const CostedFrame& frame);
   [[nodiscard]] static double passes_ns(const CompilingChip& chip, const CostedFrame& frame);
 

@@ -46,8 +46,9 @@ std::vector<OtherReference> errors_against_others(const ReferenceView& target, c
   return errors;
 }
 
-void set_error(Record& record, const ReferenceView& target, const MethodPictures& pictures, float exposure) {
-  const std::optional<ErrorFigures> figures = compare_images(pictures.frame, target.reference.mean, exposure);
+void set_error(Record& record, const ReferenceView& target, const Image& frame, const std::optional<Image>& finest,
+               float exposure) {
+  const std::optional<ErrorFigures> figures = compare_images(frame, target.reference.mean, exposure);
   if (!figures) return;
   const BoundPicture* const bound = target.bound && !record.history ? &*target.bound : nullptr;
   record.error = RecordError{.normalized_color = figures->normalized_color,
@@ -59,15 +60,15 @@ void set_error(Record& record, const ReferenceView& target, const MethodPictures
                              .luminances = figures->luminances,
                              .reference_luminances = figures->reference_luminances,
                              .noise_floor = target.noise_floor,
-                             .causes = causes_of(target, bound, pictures.frame, exposure)};
-  if (pictures.finest) {
-    record.error->representation = normalized_color(*pictures.finest, target.reference.mean, exposure);
-    record.error->filtering = normalized_color(pictures.frame, *pictures.finest, exposure);
+                             .causes = causes_of(target, bound, frame, exposure)};
+  if (finest) {
+    record.error->representation = normalized_color(*finest, target.reference.mean, exposure);
+    record.error->filtering = normalized_color(frame, *finest, exposure);
   }
-  record.highlight_energy = highlight_energy(pictures.frame, target.reference.mean, exposure);
+  record.highlight_energy = highlight_energy(frame, target.reference.mean, exposure);
   record.reference_highlight_energy = target.highlight_energy;
   record.equivalent = equivalent(target, *record.error);
-  record.other_references = errors_against_others(target, pictures.frame, exposure);
+  record.other_references = errors_against_others(target, frame, exposure);
 }
 
 std::optional<HistoryInfo> info_of(const HistorySettings& history) {
@@ -78,26 +79,14 @@ std::optional<HistoryInfo> info_of(const HistorySettings& history) {
                      .jitter = history.jitter};
 }
 
-void name_reference(Record& record, const ReferenceView& target) {
-  record.images.reference = target.files.reference;
-  record.images.standard_error = target.files.standard_error;
-  record.images.interior = target.files.interior;
+Image in_both(Image first, const Image& second) {
+  std::ranges::transform(first.texels, second.texels, first.texels.begin(), std::multiplies<>());
+  return first;
 }
 
-Image in_both(const Image& first, const Image& second) {
-  Image both = first;
-  for (std::size_t i = 0; i < both.texels.size(); ++i) {
-    if (second.texels[i] <= 0.0F) both.texels[i] = 0.0F;
-  }
-  return both;
-}
-
-Image without(const Image& mask, const Image& left_out) {
-  Image rest = mask;
-  for (std::size_t i = 0; i < rest.texels.size(); ++i) {
-    if (left_out.texels[i] > 0.0F) rest.texels[i] = 0.0F;
-  }
-  return rest;
+Image without(Image mask, const Image& left_out) {
+  std::ranges::transform(mask.texels, left_out.texels, mask.texels.begin(), std::minus<>());
+  return mask;
 }
 
 std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures) {
@@ -126,19 +115,17 @@ std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, con
 Record MethodMeasurer::failed(const StagedMethod& method, const ReferenceView& target, const Error& why) const {
   Record record = described(method, target);
   record.failure = why.what();
-  name_reference(record, target);
   return record;
 }
 
-Record MethodMeasurer::measure(const StagedMethod& method, const MethodPictures& pictures, const ReferenceView& target,
-                               float exposure) {
+Record MethodMeasurer::measure(const StagedMethod& method, const Image& frame, const std::optional<Image>& finest,
+                               const ReferenceView& target, float exposure) {
   Record record = described(method, target);
-  set_error(record, target, pictures, exposure);
+  set_error(record, target, frame, finest, exposure);
   if (record.equivalent && &method == &stage_.methods()[stage_.unit()])
     record.equivalent = EquivalentSamples{.spp = 1, .side = CurveSide::within};  // a sample is one of its frames
-  if (pictures.finest) set_light_error(record, target, pictures.frame, method, exposure);
-  set_material_errors(record, target, pictures.frame, method, exposure);
-  name_reference(record, target);
+  if (finest) set_light_error(record, target, frame, method, exposure);
+  set_material_errors(record, target, frame, method, exposure);
   return record;
 }
 
@@ -178,6 +165,7 @@ Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView
   record.precompute_cached = baked.cached;
   record.effects_on = effect_names(stage_.effects() & honours);
   record.effects_left_out = effect_names(stage_.effects() & ~honours);
+  record.images = target.files;
   return record;
 }
 
@@ -226,21 +214,22 @@ FlickerCauses flicker_causes(const Image& before, const Image& picture, const Re
 std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Record> records,
                                       std::span<const Image> images, std::span<const std::string> names,
                                       const ReferenceView& target, float exposure) {
-  if (records.size() > most_methods_in_pairs) return {};
+  if (records.size() > most_methods_in_pairs || !target.reference.halves) return {};
   const Image object = object_pixels(target.reference.mean);
   std::vector<MethodPair> pairs;
   for (std::size_t i = 0; i < records.size(); ++i) {
     for (std::size_t j = i + 1; j < records.size(); ++j) {
       if (records[i].failure || records[j].failure) continue;
-      const std::optional<Image> verdicts = closer_beyond_noise(images[i], images[j], target.reference, exposure);
-      const auto shares = verdicts ? closer_shares(*verdicts, target.parts.interior) : std::nullopt;
+      const Image verdicts =
+          closer_beyond_noise(images[i], images[j], target.reference.mean, target.reference.standard_error, exposure);
+      const auto shares = closer_shares(verdicts, target.parts.interior);
       if (!shares) continue;
       const std::string stem = fmt::format("{}_or_{}", distance_stem(target.at.distance, names[i]), names[j]);
       pairs.push_back({.distance = target.at.distance,
                        .methods = {records[i].method, records[j].method},
                        .closer = {shares->a, shares->b},
-                       .materials = shares_by_material(*verdicts, target),
-                       .picture = write_verdicts(folder, stem, *verdicts, object)});
+                       .materials = shares_by_material(verdicts, target),
+                       .picture = write_verdicts(folder, stem, verdicts, object)});
     }
   }
   return pairs;

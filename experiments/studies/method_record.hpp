@@ -14,14 +14,6 @@
 
 namespace footprint {
 
-/// The images of a method that are measured.
-struct MethodPictures {
-  Image frame;  ///< one frame
-  /// The method's finest level, supersampled, as converged as the reference; none: the errors that need it are
-  /// left out, and so is that of the environment's lookup.
-  std::optional<Image> finest;
-};
-
 /// Fills records. Stores what a method needs to be drawn otherwise for all views.
 class MethodMeasurer {
  public:
@@ -31,10 +23,13 @@ class MethodMeasurer {
   /// The row of a method that has no figures, for the reason given.
   [[nodiscard]] Record failed(const StagedMethod& method, const ReferenceView& target, const Error& why) const;
 
-  /// Measures the method before it is timed or compared with other frames. Errors (usage) name a pixel whose value is
-  /// not finite.
-  [[nodiscard]] Record measure(const StagedMethod& method, const MethodPictures& pictures, const ReferenceView& target,
-                               float exposure);
+  /// Measures the method before it is timed or compared with other frames.
+  /// frame: an image of the method.
+  /// finest: its finest level, supersampled, as converged as the reference; none: the errors that need it are left out,
+  /// and so is that of the environment's lookup.
+  /// Errors (usage) name a pixel whose value is not finite.
+  [[nodiscard]] Record measure(const StagedMethod& method, const Image& frame, const std::optional<Image>& finest,
+                               const ReferenceView& target, float exposure);
 
   /// Counts the texture lookups and lobes per pixel, except of methods whose frames take seconds: counting takes as
   /// long.

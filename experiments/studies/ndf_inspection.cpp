@@ -20,7 +20,6 @@
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/pixel_script.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -51,14 +50,9 @@ NdfSource load_map(const NormalFile& map) {
   return source;
 }
 
-std::vector<std::string> material_names(const Scene& scene) {
+std::size_t material_index(const Scene& scene, const std::string& wanted) {
   std::vector<std::string> names;
   for (const Material& material : scene.materials) names.push_back(material.name);
-  return names;
-}
-
-std::size_t material_index(const Scene& scene, const std::string& wanted) {
-  const std::vector<std::string> names = material_names(scene);
   if (wanted.empty() && names.size() == 1) return 0;
   if (wanted.empty()) {
     throw Error(ErrorKind::usage, scene.source, fmt::format("it has {} materials", names.size()),

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/studies/distance_result.hpp"
+#include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/score.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
@@ -59,15 +59,17 @@ std::string error_file(const std::filesystem::path& folder, const Record& record
 
 }  // namespace
 
+void paste(const Image& part, int left, int top, Image& picture) {
+  for (int y = std::max(0, -top); y < std::min(part.height, picture.height - top); ++y) {
+    for (int x = std::max(0, -left); x < std::min(part.width, picture.width - left); ++x)
+      std::ranges::copy(part.at(x, y), picture.at(left + x, top + y).begin());
+  }
+}
+
 Image stacked(const Image& top, const Image& bottom) {
   Image both(std::max(top.width, bottom.width), top.height + bottom.height, top.channels);
-  const auto place = [&](const Image& part, int first_row) {
-    for (int y = 0; y < part.height; ++y) {
-      for (int x = 0; x < part.width; ++x) std::ranges::copy(part.at(x, y), both.at(x, first_row + y).begin());
-    }
-  };
-  place(top, 0);
-  place(bottom, top.height);
+  paste(top, 0, 0, both);
+  paste(bottom, 0, top.height, both);
   return both;
 }
 
@@ -106,24 +108,6 @@ std::string write_mask(const std::filesystem::path& folder, const std::string& s
   return write_picture(folder, stem, picture, 1.0F);
 }
 
-void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<StripPanel>& panels,
-                  float exposure, float scale) {
-  std::vector<Image> pictures, errors;
-  std::vector<std::string> captions, error_captions;
-  for (const StripPanel& panel : panels) {
-    pictures.push_back(to_display(panel.picture, exposure));
-    captions.push_back(panel.caption);
-    if (panel.error.empty()) continue;
-    errors.push_back(false_color(panel.error, scale));
-    error_captions.push_back(panel.caption);
-  }
-  write_png(folder / "images" / (stem + ".png"), labelled_strip(pictures, captions));
-  if (errors.empty()) return;  // no method could be drawn
-  const Image strip = labelled_strip(errors, error_captions);
-  const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), scale);
-  write_png(folder / "images" / (stem + "_errors.png"), stacked(strip, legend));
-}
-
 double error_percentile(const Image& error) {
   std::vector<double> values;
   std::ranges::copy_if(error.texels, std::back_inserter(values), [](float v) { return v > 0.0F; });
@@ -140,20 +124,27 @@ double error_scale(double largest, const std::optional<double>& given) {
 void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top) {
   const Image reference = counted_reference(folder, result);
   const Image seen_reference = seen(read_back(folder, result.reference), result.exposure.factor);
-  std::vector<StripPanel> panels{{.caption = fmt::format("reference, {:.0f} spp", result.samples),
-                                  .picture = read_back(folder, result.reference),
-                                  .error = {}}};
+  std::vector<Image> pictures{to_display(read_back(folder, result.reference), result.exposure.factor)}, errors;
+  std::vector<std::string> captions{fmt::format("reference, {:.0f} spp", result.samples)}, methods;
   for (Record& record : result.records) {
     if (record.failure) continue;
-    Image picture = read_back(folder, record.images.color);
-    Image error = error_map(picture, reference, result.exposure.factor);
+    const Image picture = read_back(folder, record.images.color);
+    const Image error = error_map(picture, reference, result.exposure.factor);
     record.images.error = error_file(folder, record, "_error", error, top);
     record.images.error_shared = record.images.error;
     const Image flip = ldr_flip(seen(picture, result.exposure.factor), seen_reference);
     record.images.flip = error_file(folder, record, "_flip", flip, 1.0);
-    panels.push_back({.caption = record.method, .picture = std::move(picture), .error = std::move(error)});
+    pictures.push_back(to_display(picture, result.exposure.factor));
+    errors.push_back(false_color(error, static_cast<float>(top)));
+    methods.push_back(record.method);
   }
-  write_strips(folder, distance_stem(result.distance, "all"), panels, result.exposure.factor, static_cast<float>(top));
+  captions.insert(captions.end(), methods.begin(), methods.end());
+  const std::string stem = distance_stem(result.distance, "all");
+  write_png(folder / "images" / (stem + ".png"), labelled_strip(pictures, captions));
+  if (errors.empty()) return;  // no method could be drawn
+  const Image strip = labelled_strip(errors, methods);
+  const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), static_cast<float>(top));
+  write_png(folder / "images" / (stem + "_errors.png"), stacked(strip, legend));
 }
 
 void write_shared_error_images(const std::filesystem::path& folder, DistanceResult& result, double top) {

@@ -15,6 +15,10 @@ namespace footprint {
 
 struct DistanceResult;
 
+/// Copies `part` into `picture`, its first texel to column `left` and row `top`, as far as it is inside. Both have
+/// equally many channels.
+void paste(const Image& part, int left, int top, Image& picture);
+
 /// Two pictures of equally many channels, the first on top, both from the left edge on.
 [[nodiscard]] Image stacked(const Image& top, const Image& bottom);
 
@@ -41,18 +45,6 @@ std::string write_page_picture(const std::filesystem::path& folder, const std::s
 /// Writes a mask, one channel of 1 and 0, as FOLDER/images/STEM.exr and STEM.png beside it; returns "images/STEM.exr".
 std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask);
 
-/// A picture of a comparison, for the strips that show all of one distance side by side.
-struct StripPanel {
-  std::string caption;
-  Image picture;  ///< linear radiance, coverage in alpha
-  Image error;    ///< normalised colour error of each pixel; empty for the reference
-};
-
-/// Writes FOLDER/images/STEM.png, the pictures side by side, and STEM_errors.png, their errors over the legend
-/// of the scale.
-void write_strips(const std::filesystem::path& folder, const std::string& stem, const std::vector<StripPanel>& panels,
-                  float exposure, float scale);
-
 /// The 99th percentile of an error image over the pixels that have an error.
 [[nodiscard]] double error_percentile(const Image& error);
 
@@ -60,9 +52,9 @@ void write_strips(const std::filesystem::path& folder, const std::string& stem, 
 /// given: the scale that was requested, which is then returned.
 [[nodiscard]] double error_scale(double largest, const std::optional<double>& given);
 
-/// Writes the strips of a distance, its maps of FLIP and its error images on the scale `top`, and names them in the
-/// records; the images on the shared scale are the same until write_shared_error_images. folder: output folder with the
-/// images of `result`.
+/// Writes strips of all images of a distance and of their errors over the legend of the scale, its maps of FLIP and its
+/// error images on the scale `top`, and names them in the records; the images on the shared scale are the same until
+/// write_shared_error_images. folder: output folder with the images of `result`.
 void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
 
 /// Writes the error images of a distance on the scale `top` that all distances share, and names them in the records.

@@ -1,5 +1,5 @@
 // One sample is a frame at pixel centres; many are the picture that a finer one averages to.
-#include "experiments/studies/plain_supersampling.hpp"
+#include "experiments/studies/frame_times.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
-#include "experiments/studies/run_info.hpp"
+#include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/names.hpp"
@@ -187,13 +187,9 @@ std::optional<std::array<double, 2>> closer_than_plain(const std::vector<FilterR
   return std::array<double, 2>{sum[0] / static_cast<double>(count), sum[1] / static_cast<double>(count)};
 }
 
-// The command that writes the chosen method's maps; empty if it has no maps.
-std::string command_of(const RecommendSettings& settings, const MaterialAdvice& advice) {
-  if (!advice.choice.chosen) return {};
-  const Candidate& chosen = advice.candidates[*advice.choice.chosen];
-  if (is_plain(chosen) || chosen.bytes == 0) return {};
-  return fmt::format("footprint bake {} --method {} --footprint {} -o maps", settings.run.scene, chosen.method,
-                     chosen.footprint);
+// Null: none meets the limits.
+const Candidate* chosen_of(const MaterialAdvice& advice) {
+  return advice.choice.chosen ? &advice.candidates[*advice.choice.chosen] : nullptr;
 }
 
 MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<FilterRun>& runs, std::size_t material) {
@@ -208,10 +204,12 @@ MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<Fi
   }
   advice.candidates = candidates_of(runs, at, material);
   advice.choice = choose(advice.candidates, settings.limits);
-  advice.command = command_of(settings, advice);
-  if (advice.choice.chosen && !is_plain(advice.candidates[*advice.choice.chosen]))
-    advice.closer_than_plain =
-        closer_than_plain(runs, advice.candidates[*advice.choice.chosen], advice.distances, material);
+  const Candidate* const chosen = chosen_of(advice);
+  if (chosen == nullptr || is_plain(*chosen)) return advice;
+  if (chosen->bytes > 0)
+    advice.command = fmt::format("footprint bake {} --method {} --footprint {} -o maps", settings.run.scene,
+                                 chosen->method, chosen->footprint);
+  advice.closer_than_plain = closer_than_plain(runs, *chosen, advice.distances, material);
   return advice;
 }
 
@@ -383,9 +381,8 @@ class Advisor {
       const std::string filter = footprint_filter_text(run.filter);
       for (const Record& record : run.results.records) {
         const bool is_chosen = std::ranges::any_of(result.materials, [&](const MaterialAdvice& advice) {
-          if (!advice.choice.chosen) return false;
-          const Candidate& chosen = advice.candidates[*advice.choice.chosen];
-          return chosen.method == record.method && chosen.footprint == filter;
+          const Candidate* const chosen = chosen_of(advice);
+          return chosen != nullptr && chosen->method == record.method && chosen->footprint == filter;
         });
         const bool is_direct = record.method == "direct" && run.filter == plain_filter;
         if (!is_chosen && !is_direct) continue;

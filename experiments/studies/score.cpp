@@ -293,12 +293,6 @@ Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, con
   return verdicts;
 }
 
-std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
-                                         float exposure) {
-  if (!reference.halves) return std::nullopt;
-  return closer_beyond_noise(a, b, reference.mean, reference.standard_error, exposure);
-}
-
 std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& mask) {
   std::size_t pixels = 0, a = 0, b = 0;
   for (std::size_t i = 0; i < mask.texel_count(); ++i) {

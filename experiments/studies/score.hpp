@@ -82,13 +82,9 @@ struct ScoreMetric {
 
 /// Which of two RGBA images is closer to the reference, per pixel, by the normalised colour error (metrics.md) and
 /// beyond three standard errors of the reference: one channel, 1 for `a`, -1 for `b`, 0 if noise does not decide or the
-/// pixel is not an object pixel. None if the reference does not know its noise (fewer than two passes).
-[[nodiscard]] std::optional<Image> closer_beyond_noise(const Image& a, const Image& b, const Supersampled& reference,
-                                                       float exposure);
-
-/// The same with the reference's mean and standard error (RGB) as images.
-[[nodiscard]] Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, const Image& standard_error,
-                                        float exposure);
+/// pixel is not an object pixel. standard_error: of the reference, RGB.
+[[nodiscard]] Image closer_beyond_noise(const Image& a, const Image& b, const Image& reference,
+                                        const Image& standard_error, float exposure);
 
 /// Verdicts as display values: blue where `a` is closer, vermilion where `b` is, grey where neither is, white outside
 /// `object` (one channel, above 0).

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/studies/method_record.hpp"
+#include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
@@ -42,7 +44,9 @@ Supersampled noisy(float value, bool same_in_all) {
 }
 
 CloserShares shares_of(const Image& a, const Image& b, const Supersampled& reference) {
-  return closer_shares(*closer_beyond_noise(a, b, reference, 1.0F), Image(edge, edge, 1, 1.0F)).value();
+  return closer_shares(closer_beyond_noise(a, b, reference.mean, reference.standard_error, 1.0F),
+                       Image(edge, edge, 1, 1.0F))
+      .value();
 }
 
 TEST(Significance, NoiseAloneDecidesAlmostNothing) {
@@ -85,7 +89,7 @@ TEST(Significance, RoundingIsNoDifference) {
 TEST(Significance, OnlyWholePixelsAndThoseOfTheMaskCount) {
   Supersampled reference = noisy(0.5F, true);
   for (int x = 0; x < edge; ++x) reference.mean.at(x, 3)[3] = 0.5F;
-  const Image verdicts = *closer_beyond_noise(even(0.45F), even(1.0F), reference, 1.0F);
+  const Image verdicts = closer_beyond_noise(even(0.45F), even(1.0F), reference.mean, reference.standard_error, 1.0F);
   EXPECT_EQ(verdicts.at(10, 3)[0], 0.0F);
   EXPECT_EQ(verdicts.at(10, 4)[0], 1.0F);
   Image mask(edge, edge, 1);
@@ -95,9 +99,17 @@ TEST(Significance, OnlyWholePixelsAndThoseOfTheMaskCount) {
 }
 
 TEST(Significance, IsNotSaidWhereTheNoiseIsNotKnown) {
-  Supersampled reference = noisy(0.5F, true);
-  reference.halves.reset();
-  EXPECT_FALSE(closer_beyond_noise(even(0.4F), even(0.9F), reference, 1.0F).has_value());
+  ReferenceView target;
+  target.reference = noisy(0.5F, true);
+  target.parts.interior = Image(edge, edge, 1, 1.0F);
+  const std::vector<Image> images{even(0.4F), even(0.9F)};
+  const std::vector<Record> records(2);
+  const std::vector<std::string> names{"a", "b"};
+  const std::filesystem::path folder = test::fresh_folder();
+  std::filesystem::create_directory(folder / "images");
+  EXPECT_EQ(compare_pairs(folder, records, images, names, target, 1.0F).size(), 1U);
+  target.reference.halves.reset();
+  EXPECT_TRUE(compare_pairs(folder, records, images, names, target, 1.0F).empty());
 }
 
 // ---- the test per pixel ----

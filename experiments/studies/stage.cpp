@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <utility>
 
 #include "experiments/settings/known_methods.hpp"
-#include "experiments/studies/run_info.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
@@ -30,37 +30,25 @@ void require_upload(const Prefiltered& prefiltered) {
   }
 }
 
+std::optional<BakeCache> bakes_in(const std::optional<DiskCache>& files) {
+  return files ? std::optional<BakeCache>(*files) : std::nullopt;
+}
+
 // A method on the GPU, baked and uploaded one material after the other, so that at most one texture is in memory
-// twice. A frame build may read what was baked; of every other method the GPU has all that a frame
-// needs.
+// twice. A frame build may read what was baked; of every other method the GPU has all that a frame needs.
 PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
-                               const Method& method, const MethodSpec& spec, const BakeCache* cache,
+                               const Method& method, const MethodSpec& spec, const std::optional<DiskCache>& files,
                                const Progress& progress) {
+  const std::optional<BakeCache> cache = bakes_in(files);
   auto baked = std::make_unique<BakedMethod>(make_bake(method, spec));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
-  bake_materials(*baked, scene, effects, progress, cache, [&](std::size_t material) {
+  bake_materials(*baked, scene, effects, progress, cache ? &*cache : nullptr, [&](std::size_t material) {
     require_upload(baked->materials[material]);
     gpu->upload_material(material, [&](std::size_t texture) {
       if (!gpu->has_frame_build()) free_texels(baked->materials[material].textures[texture]);
     });
   });
   return {std::move(baked), std::move(gpu)};
-}
-
-PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
-                               const MethodSpec& spec, const std::optional<DiskCache>& files,
-                               const Progress& progress) {
-  const Method& method = find_method(spec);
-  if (!files) return bake_and_upload(gpu_scene, scene, effects, method, spec, nullptr, progress);
-  const BakeCache cache(*files);
-  return bake_and_upload(gpu_scene, scene, effects, method, spec, &cache, progress);
-}
-
-std::unique_ptr<FrameRenderer> frames_of(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
-                                         const Scene& values, const FootprintFilter& filter, const glm::ivec2& size,
-                                         const RunSettings& settings) {
-  return std::make_unique<FrameRenderer>(context, scene, method, size, frame_program(values, filter),
-                                         settings.backend.tile);
 }
 
 std::string text_of_maps(const MethodSpec& method) {
@@ -75,7 +63,50 @@ bool clear_errors(const gl::Context& context) {
   return std::ranges::any_of(errors, [](const std::string& e) { return e.find("CONTEXT_LOST") != std::string::npos; });
 }
 
+constexpr double percentile = 0.95;
+constexpr float target_luminance = 0.8F;
+
 }  // namespace
+
+float automatic_exposure(const Image& reference) {
+  std::vector<float> luminances;
+  for (std::size_t i = 0; i < reference.texels.size(); i += 4) {
+    const float* const p = &reference.texels[i];
+    if (p[3] == 1.0F) luminances.push_back(luminance(p[0], p[1], p[2]));
+  }
+  if (luminances.empty()) return 1.0F;
+  const auto nth =
+      luminances.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(luminances.size() - 1));
+  std::ranges::nth_element(luminances, nth);
+  return *nth > 0.0F && std::isfinite(*nth) ? target_luminance / *nth : 1.0F;
+}
+
+Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene, const Image& first_reference) {
+  if (given) return *given;
+  if (scene.exposure) return {.factor = *scene.exposure, .source = ExposureSource::scene};
+  return {.factor = automatic_exposure(first_reference), .source = ExposureSource::automatic};
+}
+
+BackendInfo backend_info(const gl::ContextInfo& context) {
+  return {.name = std::string(gl::backend_name(context.backend)),
+          .renderer = context.renderer,
+          .version = context.version,
+          .cpu = {}};
+}
+
+SceneInfo scene_info(const Scene& scene, const Exposure& exposure) {
+  SceneInfo info{.name = scene.name,
+                 .source = scene.source,
+                 .triangles = 0,
+                 .materials = scene.materials.size(),
+                 .lights = scene.lights.size(),
+                 .exposure = exposure.factor,
+                 .exposure_source = std::string(word_for(exposure_sources, exposure.source)),
+                 .defaults = scene.defaults,
+                 .warnings = scene.warnings};
+  for (const Mesh& mesh : scene.meshes) info.triangles += mesh.indices.size() / 3;
+  return info;
+}
 
 glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
   glm::ivec2 size(default_width, default_width);
@@ -107,7 +138,7 @@ BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const Ef
                        const Progress& progress) {
   const MethodSpec& spec = settings.methods.front();
   const std::optional<DiskCache> files = cache_of(settings);
-  const std::optional<BakeCache> cache = files ? std::optional<BakeCache>(*files) : std::nullopt;
+  const std::optional<BakeCache> cache = bakes_in(files);
   return bake(find_method(spec), spec, scene, effects, progress, cache ? &*cache : nullptr);
 }
 
@@ -146,34 +177,33 @@ StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
       drawn_{.spec = spec, .filter = {}},
       refusal_(refusal) {}
 
-StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values,
-                           const EffectSet& effects, const MethodSpec& spec, const FootprintFilter& filter,
-                           const glm::ivec2& size, const RunSettings& settings, const Progress& progress)
-    : drawn_{.spec = spec, .filter = filter} {
-  prepared_ = std::make_shared<const PreparedMethod>(
-      bake_and_upload(scene, values, effects, spec, cache_of(settings), progress));
-  frames_ = frames_of(context, scene, *prepared_->gpu, values, filter, size, settings);
+std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
+                                                      const EffectSet& effects, const MethodSpec& spec,
+                                                      const RunSettings& settings, const Progress& progress) {
+  return std::make_shared<const PreparedMethod>(
+      bake_and_upload(gpu_scene, scene, effects, find_method(spec), spec, cache_of(settings), progress));
 }
 
-StagedMethod::StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared,
-                           const StagedFrames& wanted, const glm::ivec2& size, const RunSettings& settings)
+StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& gpu_scene, const Scene& scene,
+                           std::shared_ptr<const PreparedMethod> prepared, const StagedFrames& wanted,
+                           const glm::ivec2& size, int tile)
     : prepared_(std::move(prepared)),
-      frames_(frames_of(scene.context.info(), *scene.gpu, *prepared_->gpu, scene.scene, wanted.filter, size, settings)),
+      frames_(std::make_unique<FrameRenderer>(context, gpu_scene, *prepared_->gpu, size,
+                                              frame_program(scene, wanted.filter), tile)),
       drawn_(wanted) {}
 
-Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures, Unit unit,
-             Refusal refusal)
-    : Stage(std::make_shared<PreparedScene>(std::move(scene), settings), settings, progress, pictures, unit, refusal) {}
+Stage::Stage(Scene scene, const RunSettings& settings, const Progress& progress, const StageOptions& options)
+    : Stage(std::make_shared<PreparedScene>(std::move(scene), settings), settings, progress, options) {}
 
-Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress, int pictures,
-             Unit unit, Refusal refusal)
+Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress,
+             const StageOptions& options)
     : prepared_(std::move(scene)),
       settings_(settings),
       lights_(prepared_->scene.lights),
       size_(frame_size(prepared_->scene, settings.view.size)) {
-  require_pictures(size_, pictures);
+  require_pictures(size_, options.pictures);
   PreparedScene& shared = *prepared_;
-  const std::vector<StagedFrames> wanted = wanted_methods(unit);
+  const std::vector<StagedFrames> wanted = wanted_methods(options.has_unit);
   const bool is_first = shared.gpu == nullptr;
   const auto bakes = static_cast<double>(wanted.size() + 1);
   // Visibility takes as long as all bakes, or longer.
@@ -191,13 +221,13 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
     const auto failure =
         failure_of(shared.context, method.spec, [&] { methods_.push_back(staged(method, parts.next(1, "bake "))); });
     if (!failure) continue;
-    if (methods_.size() >= settings.methods.size() || refusal == Refusal::ends_the_run) throw *failure;
+    if (methods_.size() >= settings.methods.size() || !options.records_refusals) throw *failure;
     methods_.emplace_back(method.spec, *failure);
   }
   if (is_first)
     shared.base =
         bake_and_upload(*shared.gpu, shared.scene, shared.effects, base_surface(),
-                        {.text = "reference", .name = "reference", .options = {}}, nullptr, parts.next(1, "bake "));
+                        {.text = "reference", .name = "reference", .options = {}}, {}, parts.next(1, "bake "));
   reference_ = std::make_unique<Supersampler>(shared.context.info(), *shared.gpu, *shared.base.gpu,
                                               settings.reference.filter, shared.scene.camera.orthographic,
                                               settings.backend.tile, settings.reference.environment);
@@ -206,12 +236,12 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
 
 // The unit is a single frame of `direct` under its filter, added where it is not there yet. `direct:option=...` is
 // another method.
-std::vector<StagedFrames> Stage::wanted_methods(Unit unit) {
+std::vector<StagedFrames> Stage::wanted_methods(bool has_unit) {
   const FootprintFilter own = footprint_filter_of(settings_, scene());
   std::vector<StagedFrames> wanted;
   for (const MethodSpec& spec : settings_.methods)
     wanted.push_back({.spec = spec, .filter = own, .history = history_of(spec, settings_.history)});
-  if (unit == Unit::none) return wanted;
+  if (!has_unit) return wanted;
   const StagedFrames direct{.spec = {.text = "direct", .name = "direct", .options = {}},
                             .filter = settings_.timing.unit.value_or(own)};
   const auto is_unit = [&](const StagedFrames& method) {
@@ -223,12 +253,10 @@ std::vector<StagedFrames> Stage::wanted_methods(Unit unit) {
   return wanted;
 }
 
-StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress) {
+StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress) const {
   std::shared_ptr<const PreparedMethod>& known = prepared_->methods[text_of_maps(method.spec)];
-  if (!known)
-    known = std::make_shared<const PreparedMethod>(
-        bake_and_upload(*prepared_->gpu, scene(), effects(), method.spec, cache_of(settings_), progress));
-  return {*prepared_, known, method, size_, settings_};
+  if (!known) known = prepared_method(*prepared_->gpu, scene(), effects(), method.spec, settings_, progress);
+  return {context().info(), *prepared_->gpu, scene(), known, method, size_, settings_.backend.tile};
 }
 
 SceneInfo Stage::info(const Exposure& exposure) const {
@@ -272,8 +300,7 @@ View Stage::move_to(const RunView& view) {
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {
-  return {context().info(), *prepared_->gpu, scene(), effects(), method, footprint_filter_of(settings_, scene()), size_,
-          settings_,        progress};
+  return staged({.spec = method, .filter = footprint_filter_of(settings_, scene())}, progress);
 }
 
 InteriorFinder Stage::interior_finder() const { return {*prepared_->gpu, scene()}; }

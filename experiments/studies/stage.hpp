@@ -1,4 +1,5 @@
-// The part of a run over one scene that is on the GPU: context, scene, and the methods ready to draw.
+// The part of a run over one scene that is on the GPU: context, scene, and the methods ready to draw; and the facts of
+// both for the head of a report.
 #pragma once
 
 #include <functional>
@@ -9,17 +10,33 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
-#include "experiments/studies/run_info.hpp"
 #include "experiments/studies/views.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/gl/context.hpp"
+#include "renderer/image/image.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/interior.hpp"
 #include "renderer/pipeline/supersample.hpp"
+#include "renderer/scene/scene.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
+
+/// The factor that takes the 95th percentile of the luminance of a picture's object pixels to 0.8: bright parts keep
+/// their drawing, the sharpest highlights clip. 1 where the picture is black or has no object pixel. RGBA with
+/// coverage.
+[[nodiscard]] float automatic_exposure(const Image& reference);
+
+/// The given exposure, else the scene's own, else the automatic one of its first reference.
+[[nodiscard]] Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene,
+                                       const Image& first_reference);
+
+/// The backend; the processor is left to the program, which knows it.
+[[nodiscard]] BackendInfo backend_info(const gl::ContextInfo& context);
+
+/// The scene with its exposure.
+[[nodiscard]] SceneInfo scene_info(const Scene& scene, const Exposure& exposure);
 
 /// Images of the frame's size in memory at once in most runs: the frame, and two while it is written.
 inline constexpr int pictures_of_a_frame = 3;
@@ -34,16 +51,16 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The settings of a program that draws frames of a scene.
 [[nodiscard]] ProgramSettings frame_program(const Scene& scene, const FootprintFilter& filter);
 
-/// The handling of a method that exceeds memory, or whose textures or program OpenGL refuses.
-enum class Refusal {
-  ends_the_run,  ///< an error
-  is_recorded    ///< the method is staged without maps or frames, and says why (StagedMethod::refusal)
-};
-
-/// Whether the stage has `direct` as the unit that frame times and samples are counted in.
-enum class Unit {
-  none,
-  direct  ///< the settings' own `direct`, or one more where they have none under the filter of TimingSettings::unit
+/// How a stage is set up.
+struct StageOptions {
+  int pictures = pictures_of_a_frame;  ///< as large as the frame, in memory at once
+  /// Whether it has `direct` as the unit that frame times and samples are counted in: the settings' own, or one more
+  /// where they have none under the filter of TimingSettings::unit.
+  bool has_unit = false;
+  /// Whether a method that exceeds memory, or whose textures or program OpenGL refuses, is staged without maps or
+  /// frames and says why (StagedMethod::refusal); else it is an error, as it is of a unit that the settings do not
+  /// have.
+  bool records_refusals = false;
 };
 
 /// The error of `action`, with its place within the method; none where it succeeds. GL errors that it leaves are
@@ -66,6 +83,12 @@ struct PreparedMethod {
   std::unique_ptr<BakedMethod> baked;
   std::unique_ptr<GpuMethod> gpu;
 };
+
+/// Bakes a method, unless the cache of the settings has it, and uploads it.
+[[nodiscard]] std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
+                                                                    const EffectSet& effects, const MethodSpec& spec,
+                                                                    const RunSettings& settings,
+                                                                    const Progress& progress);
 
 /// Shared by stages over one scene: its context, its maps and meshes on the GPU, and the methods that were prepared
 /// for them. The first stage fills it.
@@ -93,13 +116,10 @@ struct StagedFrames {
 /// A method ready to draw frames. Pinned: each part keeps the address of those before it.
 class StagedMethod {
  public:
-  StagedMethod(const gl::ContextInfo& context, GpuScene& scene, const Scene& values, const EffectSet& effects,
-               const MethodSpec& spec, const FootprintFilter& filter, const glm::ivec2& size,
-               const RunSettings& settings, const Progress& progress);
-
-  /// Of what is prepared already.
-  StagedMethod(PreparedScene& scene, std::shared_ptr<const PreparedMethod> prepared, const StagedFrames& wanted,
-               const glm::ivec2& size, const RunSettings& settings);
+  /// gpu_scene: of `scene`; must outlive the method.
+  StagedMethod(const gl::ContextInfo& context, GpuScene& gpu_scene, const Scene& scene,
+               std::shared_ptr<const PreparedMethod> prepared, const StagedFrames& wanted, const glm::ivec2& size,
+               int tile);
 
   /// A method that cannot be drawn, for the reason given: it has options, but no maps and no frames.
   StagedMethod(const MethodSpec& spec, const Error& refusal);
@@ -125,16 +145,14 @@ class StagedMethod {
 /// A scene with its methods and its reference on one context. Everything is made in the constructor.
 class Stage {
  public:
-  /// The settings' methods over `scene`, which need not be the settings' own. `pictures` as large as the frame are in
-  /// memory at once. `refusal` is about every method but a unit that the settings do not have themselves.
+  /// The settings' methods over `scene`, which need not be the settings' own.
   /// Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
-  Stage(Scene scene, const RunSettings& settings, const Progress& progress, int pictures = pictures_of_a_frame,
-        Unit unit = Unit::none, Refusal refusal = Refusal::ends_the_run);
+  Stage(Scene scene, const RunSettings& settings, const Progress& progress, const StageOptions& options = {});
 
   /// The same over a scene that other stages may have prepared: what they have is taken from there, and what is made is
   /// left there for those that follow. Their settings differ in methods, footprint filter and size alone.
   Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress,
-        int pictures = pictures_of_a_frame, Unit unit = Unit::none, Refusal refusal = Refusal::ends_the_run);
+        const StageOptions& options = {});
 
   [[nodiscard]] const gl::Context& context() const { return prepared_->context; }
   [[nodiscard]] const Scene& scene() const { return prepared_->scene; }
@@ -175,8 +193,8 @@ class Stage {
   [[nodiscard]] Supersampler finest_level(const StagedMethod& method) const;
 
  private:
-  [[nodiscard]] std::vector<StagedFrames> wanted_methods(Unit unit);
-  [[nodiscard]] StagedMethod staged(const StagedFrames& method, const Progress& progress);
+  [[nodiscard]] std::vector<StagedFrames> wanted_methods(bool has_unit);
+  [[nodiscard]] StagedMethod staged(const StagedFrames& method, const Progress& progress) const;
   void pose_at(double seconds);
 
   std::shared_ptr<PreparedScene> prepared_;

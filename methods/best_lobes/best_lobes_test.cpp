@@ -15,7 +15,6 @@
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
 #include "tests/support/method_probe.hpp"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "renderer/image/metrics.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
 #include "renderer/pipeline/base_surface.hpp"

@@ -12,7 +12,6 @@
 #include "renderer/core/error.hpp"
 #include "renderer/gpu_cost/compiled_programs.hpp"
 #include "renderer/gpu_cost/estimate.hpp"
-#include "renderer/gpu_cost/shader_work.hpp"
 #include "renderer/languages/spirv.hpp"
 
 namespace footprint {

@@ -110,30 +110,17 @@ Alignment alignment(const Material& material) {
   return {{relation[0][0], relation[1][1]}, glm::dvec2(relation[2])};
 }
 
-// Reads the maps of a material as facets.
-class Facets {
- public:
-  explicit Facets(const Material& material)
-      : normals_(normal_map_of(material)), parameters_(lobe_parameter_map_of(material)) {}
-
-  [[nodiscard]] const Image& normals() const { return normals_; }
-  [[nodiscard]] const Image& parameters() const { return parameters_; }
-
-  /// Share 0 if the texel has no normal.
-  [[nodiscard]] WeightedFacet facet(const Stretch& column, const Stretch& row, double area) const {
-    const auto texel = normals_.at(column.normal, row.normal);
-    const glm::dvec3 normal(texel[0], texel[1], texel[2]);
-    const double length = glm::length(normal);
-    const bool valid = texel[3] >= 0.5F && std::isfinite(length) && length >= shortest_normal;
-    if (!valid) return {};
-    const double parameter = parameters_.at(column.roughness, row.roughness)[0];
-    return {normal / length, parameter, column.length * row.length / area};
-  }
-
- private:
-  Image normals_;
-  Image parameters_;  // lobe parameters, one per texel of the roughness map
-};
+// The facet of a texel of each map; share 0 if the texel has no normal.
+// parameters: of lobes, one per texel of the roughness map.
+WeightedFacet facet_of(const Image& normals, const Image& parameters, const Stretch& column, const Stretch& row,
+                       double area) {
+  const auto texel = normals.at(column.normal, row.normal);
+  const glm::dvec3 normal(texel[0], texel[1], texel[2]);
+  const double length = glm::length(normal);
+  const bool valid = texel[3] >= 0.5F && std::isfinite(length) && length >= shortest_normal;
+  if (!valid) return {};
+  return {normal / length, parameters.at(column.roughness, row.roughness)[0], column.length * row.length / area};
+}
 
 auto order_of(const WeightedFacet& f) { return std::tie(f.parameter, f.normal.x, f.normal.y, f.normal.z); }
 
@@ -254,13 +241,13 @@ void check_footprint(const FootprintRect& rect, const std::string& place) {
 }
 
 FootprintTexels texels_under(const Material& material, const FootprintRect& rect) {
-  const Facets maps(material);
+  const Image normals = normal_map_of(material), parameters = lobe_parameter_map_of(material);
   const Alignment aligned = alignment(material);
   const std::array<Wrap, 2> normal_wrap = normal_coordinates(material).wrap;
   const std::array<Wrap, 2> roughness_wrap = roughness_coordinates(material).wrap;
   const auto axis = [&](int i) {
-    const int size = i == 0 ? maps.normals().width : maps.normals().height;
-    const int rough = i == 0 ? maps.parameters().width : maps.parameters().height;
+    const int size = i == 0 ? normals.width : normals.height;
+    const int rough = i == 0 ? parameters.width : parameters.height;
     const auto k = static_cast<std::size_t>(i);
     return stretches({size, normal_wrap[k], 1.0, 0.0}, {rough, roughness_wrap[k], aligned.scale[i], aligned.offset[i]},
                      rect.lower[i], rect.upper[i]);
@@ -271,11 +258,11 @@ FootprintTexels texels_under(const Material& material, const FootprintRect& rect
                  fmt::format("a footprint of {} x {} texels", columns.size(), rows.size()),
                  "give a smaller --region, or free memory");
   const double area = rect.size().x * rect.size().y;
-  FootprintTexels out{area * static_cast<double>(maps.normals().texel_count()), 0.0, {}};
+  FootprintTexels out{area * static_cast<double>(normals.texel_count()), 0.0, {}};
   out.facets.reserve(columns.size() * rows.size());
   for (const Stretch& row : rows) {
     for (const Stretch& column : columns) {
-      const WeightedFacet facet = maps.facet(column, row, area);
+      const WeightedFacet facet = facet_of(normals, parameters, column, row, area);
       if (facet.share > 0.0) out.facets.push_back(facet);
     }
   }

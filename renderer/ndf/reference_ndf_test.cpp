@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "renderer/core/error.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {

@@ -3,7 +3,7 @@
 
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/gl/context.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
+#include "renderer/ndf/reference_ndf.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "tests/hard_cases/hard_case.hpp"
 

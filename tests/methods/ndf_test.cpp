@@ -15,7 +15,6 @@
 
 #include "methods/registry.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
-#include "renderer/ndf/hemisphere_grid.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
 #include "scenes/surfaces/registry.hpp"

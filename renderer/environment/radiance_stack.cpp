@@ -161,25 +161,6 @@ constexpr double narrowest_alpha = 1e-3;       // smallest_alpha of common_lobes
 constexpr double hemisphere_sharpness = 1.83;  // of environment_stack.glsl
 constexpr std::size_t geometries = no_geometry + 1;
 
-// G2 / (4 n.l n.v) times n.l (Heitz 2014, equation 99), the axis along z.
-double smith_factor(double alpha2, double nl, double nv) {
-  nv = std::max(nv, 1e-4);
-  const double masked =
-      nl * std::sqrt(alpha2 + (1.0 - alpha2) * nv * nv) + nv * std::sqrt(alpha2 + (1.0 - alpha2) * nl * nl);
-  return 0.5 * nl / std::max(masked, 1e-12);
-}
-
-// Tan 2005 under the bound of a V-cavity's masking.
-double tan_factor(double nh, double oh, double nv) {
-  return std::min(1.0 / std::max(nv, 1e-3), 2.0 * std::max(nh, 0.0) / std::max(oh, 1e-6));
-}
-
-// The mean of max(h.wo, 0) over GGX's normals, c the cosine of view and axis (Walter 2007's Smith term).
-double visible_area(double c, double alpha2) {
-  const double root = std::sqrt(c * c + alpha2 * (1.0 - c * c));
-  return c >= 0.0 ? 0.5 * (root + c) : 0.5 * alpha2 * (1.0 - c * c) / (root - c);
-}
-
 // The energies of one part of a lobe under one geometry factor.
 struct Sum {
   double energy = 0, schlick = 0;
@@ -198,10 +179,7 @@ struct View {
 
 // Adds the node at `u` of the cap's area and `azimuth` to the sum of each geometry.
 void add_node(std::array<Sum, geometries>& sums, const View& view, double u, double azimuth) {
-  const double z = 1.0 - u * (1.0 + view.stretched.z);
-  const double sine = std::sqrt(std::max(1.0 - z * z, 0.0));
-  const glm::dvec3 cap = glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + view.stretched;
-  const glm::dvec3 h = glm::normalize(glm::dvec3(view.alpha * cap.x, view.alpha * cap.y, std::max(cap.z, 1e-9)));
+  const glm::dvec3 h = visible_normal(view.stretched, view.alpha, u, azimuth);
   const double oh = glm::dot(h, view.wo);
   const glm::dvec3 wi = 2.0 * oh * h - view.wo;
   if (wi.z <= 0.0) return;
@@ -280,6 +258,29 @@ double lobe_view(int x, int count) {
 double lobe_width(int y, int count) {
   const double narrowest = std::sqrt(narrowest_alpha);
   return std::pow(narrowest + (1.0 - narrowest) * y / (count - 1), 2.0);
+}
+
+double smith_factor(double alpha2, double nl, double nv) {
+  nv = std::max(nv, 1e-4);
+  const double masked =
+      nl * std::sqrt(alpha2 + (1.0 - alpha2) * nv * nv) + nv * std::sqrt(alpha2 + (1.0 - alpha2) * nl * nl);
+  return 0.5 * nl / std::max(masked, 1e-12);
+}
+
+double tan_factor(double nh, double oh, double nv) {
+  return std::min(1.0 / std::max(nv, 1e-3), 2.0 * std::max(nh, 0.0) / std::max(oh, 1e-6));
+}
+
+double visible_area(double c, double alpha2) {
+  const double root = std::sqrt(c * c + alpha2 * (1.0 - c * c));
+  return c >= 0.0 ? 0.5 * (root + c) : 0.5 * alpha2 * (1.0 - c * c) / (root - c);
+}
+
+glm::dvec3 visible_normal(const glm::dvec3& stretched, double alpha, double u, double azimuth) {
+  const double z = 1.0 - u * (1.0 + stretched.z);
+  const double sine = std::sqrt(std::max(1.0 - z * z, 0.0));
+  const glm::dvec3 cap = glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + stretched;
+  return glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-9)));
 }
 
 LobeTable make_lobe_table() {

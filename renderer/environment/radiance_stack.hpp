@@ -47,6 +47,15 @@ struct LobeTable {
 /// GGX's alpha at row `y` of `rows`, 0.001 to 1: even steps of its square root.
 [[nodiscard]] double lobe_width(int y, int rows);
 
+/// GGX's geometry factor G2 / (4 n.l n.v) times n.l, the axis along z (Heitz 2014, equation 99).
+[[nodiscard]] double smith_factor(double alpha2, double nl, double nv);
+/// Tan 2005 under the bound of a V-cavity's masking.
+[[nodiscard]] double tan_factor(double nh, double oh, double nv);
+/// The mean of max(h.wo, 0) over GGX's normals, c the cosine of view and axis (Walter 2007's Smith term).
+[[nodiscard]] double visible_area(double c, double alpha2);
+/// A visible normal of GGX for u and azimuth on the cap about the view, stretched to alpha 1 (Dupuy and Benyoub 2023).
+[[nodiscard]] glm::dvec3 visible_normal(const glm::dvec3& stretched, double alpha, double u, double azimuth);
+
 /// The table. Equal at any number of threads; takes about 50 ms of one core.
 [[nodiscard]] LobeTable make_lobe_table();
 

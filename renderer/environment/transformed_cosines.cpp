@@ -9,6 +9,8 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "renderer/environment/radiance_stack.hpp"
+
 namespace footprint {
 namespace {
 
@@ -29,12 +31,6 @@ double ggx(double alpha2, double cosine) {
   return cosine > 0.0 ? alpha2 / (pi * rest * rest) : 0.0;
 }
 
-// The mean of max(h.wo, 0) over GGX's normals (Walter 2007).
-double seen_area(double c, double alpha2) {
-  const double root = std::sqrt(c * c + alpha2 * (1.0 - c * c));
-  return c >= 0.0 ? 0.5 * (root + c) : 0.5 * alpha2 * (1.0 - c * c) / (root - c);
-}
-
 // The integral of D (h.n).
 double projected_area(const Lobe& lobe) {
   if (lobe.distribution == NormalDistribution::blinn_phong) return (lobe.parameter + 1.0) / (lobe.parameter + 2.0);
@@ -49,14 +45,14 @@ double beckmann_lambda(double alpha, double cosine) {
 
 double geometry_factor(TabulatedGeometry geometry, double alpha, const glm::dvec3& h, const glm::dvec3& wi,
                        const glm::dvec3& wo) {
-  const double nl = wi.z, nv = std::max(wo.z, 1e-4), a2 = alpha * alpha;
+  const double nl = wi.z, nv = std::max(wo.z, 1e-4);
   switch (geometry) {
     case TabulatedGeometry::none:
       return 1.0;
     case TabulatedGeometry::tan:
-      return std::min(1.0 / std::max(wo.z, 1e-3), 2.0 * std::max(h.z, 0.0) / std::max(glm::dot(wo, h), 1e-6));
+      return tan_factor(h.z, glm::dot(wo, h), wo.z);
     case TabulatedGeometry::smith_ggx:
-      return 0.5 * nl / (nl * std::sqrt(a2 + (1.0 - a2) * nv * nv) + nv * std::sqrt(a2 + (1.0 - a2) * nl * nl));
+      return smith_factor(alpha * alpha, nl, wo.z);
     case TabulatedGeometry::smith_beckmann:
       return 0.25 / ((1.0 + beckmann_lambda(alpha, nv) + beckmann_lambda(alpha, nl)) * nv);
     case TabulatedGeometry::ward:
@@ -79,16 +75,9 @@ struct MirroredView {
   MirroredView(double angle, double width)
       : wo(-std::sin(angle), 0.0, std::cos(angle)),
         alpha(width),
-        area(seen_area(wo.z, width * width)),
+        area(visible_area(wo.z, width * width)),
         stretched(glm::normalize(glm::dvec3(width * wo.x, 0.0, wo.z))) {}
 
-  // A visible normal of GGX (Dupuy and Benyoub 2023).
-  [[nodiscard]] glm::dvec3 normal(double u, double azimuth) const {
-    const double z = 1.0 - u * (1.0 + stretched.z);
-    const double sine = std::sqrt(std::max(1.0 - z * z, 0.0));
-    const glm::dvec3 cap = glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + stretched;
-    return glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-9)));
-  }
   // Over solid angle of the reflected direction.
   [[nodiscard]] double density(const glm::dvec3& h) const { return ggx(alpha * alpha, h.z) / (4.0 * area); }
 };
@@ -106,7 +95,7 @@ class Draws {
     for (const MirroredView& view : views_) {
       for (int i = 0; i < ring_count * sector_count; ++i) {
         const double u = (i / sector_count + 0.5) / ring_count, azimuth = pi * (i % sector_count + 0.5) / sector_count;
-        add(view.normal(u, azimuth), ring_count * sector_count, drawn);
+        add(visible_normal(view.stretched, view.alpha, u, azimuth), ring_count * sector_count, drawn);
       }
     }
     return drawn;

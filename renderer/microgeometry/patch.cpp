@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -56,6 +57,46 @@ bool has_area(const Patch& patch) {
 
 using std::numbers::pi;
 
+// Adds a grid of quadrilaterals, two triangles each, counter-clockwise in (u, v). `point(u, v)` is called for u in
+// 0..columns and v in 0..rows. Degenerate triangles are omitted.
+void add_grid(Patch& patch, int columns, int rows, std::uint8_t paint,
+              const std::function<glm::vec3(int, int)>& point) {
+  const auto base = static_cast<std::uint32_t>(patch.vertices.size());
+  const auto stride = static_cast<std::uint32_t>(columns) + 1;
+  for (int v = 0; v <= rows; ++v) {
+    for (int u = 0; u <= columns; ++u) patch.vertices.push_back(point(u, v));
+  }
+  const auto add = [&](const glm::uvec3& triangle) {
+    patch.triangles.push_back(triangle);
+    if (facet_plane(patch, patch.triangles.size() - 1).area > 0.0) {
+      patch.paints.push_back(paint);
+    } else {
+      patch.triangles.pop_back();
+    }
+  };
+  for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(rows); ++v) {
+    for (std::uint32_t u = 0; u + 1 < stride; ++u) {
+      const std::uint32_t corner = base + v * stride + u;
+      add({corner, corner + 1, corner + stride + 1});
+      add({corner, corner + stride + 1, corner + stride});
+    }
+  }
+}
+
+// Triangles of the height field z = height(x, y) over [0, 1) x [0, 1), which must have period 1. Each of the columns x
+// rows squares is cut along the diagonal from its lower left corner.
+Patch height_field_patch(std::string name, int columns, int rows, const std::function<double(double, double)>& height) {
+  Patch patch;
+  patch.name = std::move(name);
+  add_grid(patch, columns, rows, 0, [&](int u, int v) {
+    const double x = static_cast<double>(u) / columns;
+    const double y = static_cast<double>(v) / rows;
+    // The last column evaluates the first again, so that rounding cannot open the border.
+    return glm::vec3(glm::dvec3(x, y, height(u == columns ? 0.0 : x, v == rows ? 0.0 : y)));
+  });
+  return patch;
+}
+
 constexpr int threads = 2;  // of each kind in a period: a plain weave repeats after two
 constexpr double thread_distance = 1.0 / threads;
 
@@ -72,6 +113,34 @@ glm::dvec3 thread_point(const Thread& thread, double across, double along) {
   const double angle = pi * (1.0 - across);  // 0..1 from one edge to the other
   const double axis = thread.phase * thread.height * std::cos(2.0 * pi * (along - 0.5 * thread_distance));
   return {thread.centre + 0.5 * thread.width * std::cos(angle), along, axis + thread.height * std::sin(angle)};
+}
+
+Patch weave_patch(const Options& parameters, std::uint64_t /*seed*/) {
+  const auto color = [&](const std::string& thread) {
+    return glm::vec3(parameters.number(thread + "_red"), parameters.number(thread + "_green"),
+                     parameters.number(thread + "_blue"));
+  };
+  const int along = static_cast<int>(parameters.number("steps_along"));
+  const int across = static_cast<int>(parameters.number("steps_across"));
+  Patch patch;
+  patch.name = "weave";
+  patch.palette = {color("warp"), color("weft")};
+  for (int i = 0; i < threads; ++i) {
+    Thread thread{.centre = (i + 0.5) * thread_distance,
+                  .width = parameters.number("warp_width") * thread_distance,
+                  .height = parameters.number("height"),
+                  .phase = i % 2 == 0 ? 1.0 : -1.0};
+    add_grid(patch, across, along, 0, [&](int u, int v) {
+      return glm::vec3(thread_point(thread, static_cast<double>(u) / across, static_cast<double>(v) / along));
+    });
+    thread.width = parameters.number("weft_width") * thread_distance;
+    thread.phase = -thread.phase;
+    add_grid(patch, along, across, 1, [&](int u, int v) {  // swaps x and y, which reverses the direction across
+      const glm::dvec3 p = thread_point(thread, static_cast<double>(v) / across, static_cast<double>(u) / along);
+      return glm::vec3(glm::dvec3(p.y, p.x, p.z));
+    });
+  }
+  return patch;
 }
 
 struct Wave {
@@ -95,7 +164,33 @@ std::vector<Wave> random_waves(int most, double slope, std::mt19937_64& random) 
   return waves;
 }
 
-using std::numbers::pi;
+Patch noise_patch(const Options& parameters, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const std::vector<Wave> waves =
+      random_waves(static_cast<int>(parameters.number("waves")), parameters.number("slope"), random);
+  const int steps = static_cast<int>(parameters.number("steps"));
+  return height_field_patch("noise", steps, steps, [&](double x, double y) {
+    double sum = 0.0;
+    for (const Wave& w : waves) sum += w.amplitude * std::cos(w.frequency.x * x + w.frequency.y * y + w.phase);
+    return sum;
+  });
+}
+
+Patch spheres_patch(const Options& parameters, std::uint64_t /*seed*/) {
+  const double radius = parameters.number("radius");
+  const double lift = parameters.number("height") * radius;
+  const int around = static_cast<int>(parameters.number("steps"));
+  const int down = std::max(around / 2, 2);
+  Patch patch = height_field_patch("spheres", 1, 1, [](double, double) { return 0.0; });
+  add_grid(patch, around, down, 0, [&](int u, int v) {
+    const double turn = 2.0 * pi * (u % around) / around;
+    const double polar = pi * (1.0 - static_cast<double>(v) / down);  // from the lower pole up
+    const double sine = v == 0 || v == down ? 0.0 : radius * std::sin(polar);
+    return glm::vec3(
+        glm::dvec3(0.5 + sine * std::cos(turn), 0.5 + sine * std::sin(turn), lift + radius * std::cos(polar)));
+  });
+  return patch;
+}
 
 double tangent_of(const Options& parameters, std::string_view name) {
   return std::tan(parameters.number(name) * pi / 180.0);
@@ -154,52 +249,6 @@ Patch pyramids_patch(const Options& parameters, std::uint64_t /*seed*/) {
   return patch;
 }
 
-std::vector<PatchKind> make_kinds() {
-  std::vector<PatchKind> kinds;
-  kinds.push_back({"flat", "A plane: the effective BRDF is the facets' own.", {}, flat_patch});
-  kinds.push_back({"grooves",
-                   "Parallel grooves along y, with flat lands between them.",
-                   {number_option("land", 0.2, 0.0, 0.95, "Width of the flat between two grooves, in periods."),
-                    number_option("flank_degrees", 35.0, 0.0, 80.0, "Mean tilt of a groove's flanks, degrees."),
-                    word_option("profile", {"v", "round"}, "Straight flanks, or a cosine."),
-                    whole_option("steps", 24, 2, 1024, "profile=round: quadrilaterals across a groove.")},
-                   grooves_patch});
-  kinds.push_back({"pyramids",
-                   "Four-sided pyramids, or pits, on a floor.",
-                   {number_option("floor", 0.2, 0.0, 0.95, "Share of the floor along each axis."),
-                    number_option("slope_degrees", 30.0, -80.0, 80.0, "Tilt of the sides, degrees; below 0 a pit.")},
-                   pyramids_patch});
-  kinds.push_back({"spheres",
-                   "Balls half sunk into a floor, one a period.",
-                   {number_option("radius", 0.4, 0.01, 0.5, "Radius, in periods."),
-                    number_option("height", 0.0, -0.5, 2.0, "Height of the centre above the floor, in radii."),
-                    whole_option("steps", 24, 3, 512, "Quadrilaterals around a ball; half as many from pole to pole.")},
-                   spheres_patch});
-  kinds.push_back(
-      {"weave",
-       "Plain weave of warp threads along y and weft threads along x, two of each a period, each of its own colour.",
-       {number_option("warp_width", 0.8, 0.02, 1.0, "Width of a warp thread over their distance."),
-        number_option("weft_width", 0.8, 0.02, 1.0, "Width of a weft thread over their distance."),
-        number_option("height", 0.06, 0.001, 0.5,
-                      "How far a thread rises and falls, and half its thickness, in periods."),
-        number_option("warp_red", 1.0, 0.0, 1.0, "The warp's colour, linear."),
-        number_option("warp_green", 1.0, 0.0, 1.0, "The warp's colour, linear."),
-        number_option("warp_blue", 1.0, 0.0, 1.0, "The warp's colour, linear."),
-        number_option("weft_red", 1.0, 0.0, 1.0, "The weft's colour, linear."),
-        number_option("weft_green", 1.0, 0.0, 1.0, "The weft's colour, linear."),
-        number_option("weft_blue", 1.0, 0.0, 1.0, "The weft's colour, linear."),
-        whole_option("steps_along", 16, 4, 512, "Quadrilaterals along a thread in a period."),
-        whole_option("steps_across", 8, 2, 256, "Quadrilaterals across a thread.")},
-       weave_patch});
-  kinds.push_back({"noise",
-                   "A rough height field: a sum of waves of random directions and phases.",
-                   {number_option("slope", 0.4, 0.0, 4.0, "Root mean square slope."),
-                    whole_option("waves", 6, 1, 64, "Highest number of waves a period along an axis."),
-                    whole_option("steps", 48, 4, 1024, "Squares a side.")},
-                   noise_patch});
-  return kinds;
-}
-
 }  // namespace
 
 FacetPlane facet_plane(const Patch& patch, std::size_t triangle) {
@@ -247,100 +296,49 @@ void check_patch(const Patch& patch, const std::string& place) {
   if (!has_area(patch)) throw refuse("all its triangles are degenerate", "give it one with an area");
 }
 
-void add_grid(Patch& patch, int columns, int rows, std::uint8_t paint,
-              const std::function<glm::vec3(int, int)>& point) {
-  const auto base = static_cast<std::uint32_t>(patch.vertices.size());
-  const auto stride = static_cast<std::uint32_t>(columns) + 1;
-  for (int v = 0; v <= rows; ++v) {
-    for (int u = 0; u <= columns; ++u) patch.vertices.push_back(point(u, v));
-  }
-  const auto add = [&](const glm::uvec3& triangle) {
-    patch.triangles.push_back(triangle);
-    if (facet_plane(patch, patch.triangles.size() - 1).area > 0.0) {
-      patch.paints.push_back(paint);
-    } else {
-      patch.triangles.pop_back();
-    }
-  };
-  for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(rows); ++v) {
-    for (std::uint32_t u = 0; u + 1 < stride; ++u) {
-      const std::uint32_t corner = base + v * stride + u;
-      add({corner, corner + 1, corner + stride + 1});
-      add({corner, corner + stride + 1, corner + stride});
-    }
-  }
-}
-
-Patch height_field_patch(std::string name, int columns, int rows, const std::function<double(double, double)>& height) {
-  Patch patch;
-  patch.name = std::move(name);
-  add_grid(patch, columns, rows, 0, [&](int u, int v) {
-    const double x = static_cast<double>(u) / columns;
-    const double y = static_cast<double>(v) / rows;
-    // The last column evaluates the first again, so that rounding cannot open the border.
-    return glm::vec3(glm::dvec3(x, y, height(u == columns ? 0.0 : x, v == rows ? 0.0 : y)));
-  });
-  return patch;
-}
-
-Patch weave_patch(const Options& parameters, std::uint64_t /*seed*/) {
-  const auto color = [&](const std::string& thread) {
-    return glm::vec3(parameters.number(thread + "_red"), parameters.number(thread + "_green"),
-                     parameters.number(thread + "_blue"));
-  };
-  const int along = static_cast<int>(parameters.number("steps_along"));
-  const int across = static_cast<int>(parameters.number("steps_across"));
-  Patch patch;
-  patch.name = "weave";
-  patch.palette = {color("warp"), color("weft")};
-  for (int i = 0; i < threads; ++i) {
-    Thread thread{.centre = (i + 0.5) * thread_distance,
-                  .width = parameters.number("warp_width") * thread_distance,
-                  .height = parameters.number("height"),
-                  .phase = i % 2 == 0 ? 1.0 : -1.0};
-    add_grid(patch, across, along, 0, [&](int u, int v) {
-      return glm::vec3(thread_point(thread, static_cast<double>(u) / across, static_cast<double>(v) / along));
-    });
-    thread.width = parameters.number("weft_width") * thread_distance;
-    thread.phase = -thread.phase;
-    add_grid(patch, along, across, 1, [&](int u, int v) {  // swaps x and y, which reverses the direction across
-      const glm::dvec3 p = thread_point(thread, static_cast<double>(v) / across, static_cast<double>(u) / along);
-      return glm::vec3(glm::dvec3(p.y, p.x, p.z));
-    });
-  }
-  return patch;
-}
-
-Patch noise_patch(const Options& parameters, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const std::vector<Wave> waves =
-      random_waves(static_cast<int>(parameters.number("waves")), parameters.number("slope"), random);
-  const int steps = static_cast<int>(parameters.number("steps"));
-  return height_field_patch("noise", steps, steps, [&](double x, double y) {
-    double sum = 0.0;
-    for (const Wave& w : waves) sum += w.amplitude * std::cos(w.frequency.x * x + w.frequency.y * y + w.phase);
-    return sum;
-  });
-}
-
-Patch spheres_patch(const Options& parameters, std::uint64_t /*seed*/) {
-  const double radius = parameters.number("radius");
-  const double lift = parameters.number("height") * radius;
-  const int around = static_cast<int>(parameters.number("steps"));
-  const int down = std::max(around / 2, 2);
-  Patch patch = height_field_patch("spheres", 1, 1, [](double, double) { return 0.0; });
-  add_grid(patch, around, down, 0, [&](int u, int v) {
-    const double turn = 2.0 * pi * (u % around) / around;
-    const double polar = pi * (1.0 - static_cast<double>(v) / down);  // from the lower pole up
-    const double sine = v == 0 || v == down ? 0.0 : radius * std::sin(polar);
-    return glm::vec3(
-        glm::dvec3(0.5 + sine * std::cos(turn), 0.5 + sine * std::sin(turn), lift + radius * std::cos(polar)));
-  });
-  return patch;
-}
-
 std::span<const PatchKind> patch_kinds() {
-  static const std::vector<PatchKind> kinds = make_kinds();
+  static const std::vector<PatchKind> kinds{
+      {"flat", "A plane: the effective BRDF is the facets' own.", {}, flat_patch},
+      {"grooves",
+       "Parallel grooves along y, with flat lands between them.",
+       {number_option("land", 0.2, 0.0, 0.95, "Width of the flat between two grooves, in periods."),
+        number_option("flank_degrees", 35.0, 0.0, 80.0, "Mean tilt of a groove's flanks, degrees."),
+        word_option("profile", {"v", "round"}, "Straight flanks, or a cosine."),
+        whole_option("steps", 24, 2, 1024, "profile=round: quadrilaterals across a groove.")},
+       grooves_patch},
+      {"pyramids",
+       "Four-sided pyramids, or pits, on a floor.",
+       {number_option("floor", 0.2, 0.0, 0.95, "Share of the floor along each axis."),
+        number_option("slope_degrees", 30.0, -80.0, 80.0, "Tilt of the sides, degrees; below 0 a pit.")},
+       pyramids_patch},
+      {"spheres",
+       "Balls half sunk into a floor, one a period.",
+       {number_option("radius", 0.4, 0.01, 0.5, "Radius, in periods."),
+        number_option("height", 0.0, -0.5, 2.0, "Height of the centre above the floor, in radii."),
+        whole_option("steps", 24, 3, 512, "Quadrilaterals around a ball; half as many from pole to pole.")},
+       spheres_patch},
+      {"weave",
+       "Plain weave of warp threads along y and weft threads along x, two of each a period, each of its own colour.",
+       {number_option("warp_width", 0.8, 0.02, 1.0, "Width of a warp thread over their distance."),
+        number_option("weft_width", 0.8, 0.02, 1.0, "Width of a weft thread over their distance."),
+        number_option("height", 0.06, 0.001, 0.5,
+                      "How far a thread rises and falls, and half its thickness, in periods."),
+        number_option("warp_red", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number_option("warp_green", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number_option("warp_blue", 1.0, 0.0, 1.0, "The warp's colour, linear."),
+        number_option("weft_red", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        number_option("weft_green", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        number_option("weft_blue", 1.0, 0.0, 1.0, "The weft's colour, linear."),
+        whole_option("steps_along", 16, 4, 512, "Quadrilaterals along a thread in a period."),
+        whole_option("steps_across", 8, 2, 256, "Quadrilaterals across a thread.")},
+       weave_patch},
+      {"noise",
+       "A rough height field: a sum of waves of random directions and phases.",
+       {number_option("slope", 0.4, 0.0, 4.0, "Root mean square slope."),
+        whole_option("waves", 6, 1, 64, "Highest number of waves a period along an axis."),
+        whole_option("steps", 48, 4, 1024, "Squares a side.")},
+       noise_patch},
+  };
   return kinds;
 }
 

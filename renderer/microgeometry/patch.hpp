@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <span>
@@ -50,20 +49,6 @@ inline constexpr float most_patch_rise = 16.0F;
 /// Throws Error (usage) that names the patch and `place`: no triangle with an area, a non-positive period, an index or
 /// paint out of range, a position that is not finite, too many triangles, or an extent too large for the period.
 void check_patch(const Patch& patch, const std::string& place);
-
-/// Builds triangles of the height field z = height(x, y) over [0, 1) x [0, 1). `height` must have period 1. Each of the
-/// columns x rows squares is cut along the diagonal from its lower left corner.
-[[nodiscard]] Patch height_field_patch(std::string name, int columns, int rows,
-                                       const std::function<double(double, double)>& height);
-
-/// Adds a grid of quadrilaterals, two triangles each, counter-clockwise in (u, v). `point(u, v)` is called for u in
-/// 0..columns and v in 0..rows. Degenerate triangles are omitted.
-void add_grid(Patch& patch, int columns, int rows, std::uint8_t paint, const std::function<glm::vec3(int, int)>& point);
-
-/// The generators of `patch_kinds`.
-[[nodiscard]] Patch weave_patch(const Options& parameters, std::uint64_t seed);
-[[nodiscard]] Patch noise_patch(const Options& parameters, std::uint64_t seed);
-[[nodiscard]] Patch spheres_patch(const Options& parameters, std::uint64_t seed);
 
 /// A kind of patch. Parameters that are lengths are in periods.
 struct PatchKind {

@@ -49,6 +49,10 @@ constexpr float near_corner = 0.9F;               // of the way from the middle 
 // A light closer to a triangle's plane than this does not shine on it: rays along a surface meet its own triangles.
 constexpr float grazing = 1e-3F;
 
+bool is_double_sided(const Scene& scene, const SurfacePoint& point) {
+  return scene.materials[static_cast<std::size_t>(scene.meshes[point.mesh].material)].double_sided;
+}
+
 struct TriangleId {
   std::size_t mesh, triangle;
 };
@@ -111,40 +115,25 @@ void append_by_area(const std::vector<TriangleId>& triangles, const Occluders& o
   }
 }
 
-// One search for one light.
-class Search {
- public:
-  Search(const Scene& scene, const Occluders& occluders, const Light& light)
-      : scene_(&scene), occluders_(&occluders), light_(&light) {}
-
-  // Whether a point is shadowed, or shadows another one.
-  [[nodiscard]] bool shadows(const SurfacePoint& point) const {
-    const glm::vec3 position = occluders_->position(point);
-    const auto ray = ray_to_light(*light_, position);
-    if (!ray) return false;
-    const float side = facing(point, ray->direction);
-    const glm::vec3 start =
-        position + std::copysign(occluders_->offset(), side) * occluders_->normal(point.mesh, point.triangle);
-    if (lit(point, side) && occluders_->blocked(start, ray->direction, ray->distance)) return true;
-    if (side <= 0.0F && occluders_->open_from_behind(point.mesh)) return false;
-    const auto next = occluders_->nearest(position, -ray->direction, 2.0F * occluders_->offset());
-    return next && lit(*next, facing(*next, ray->direction)) && ray_to_light(*light_, occluders_->position(*next));
-  }
-
- private:
-  [[nodiscard]] float facing(const SurfacePoint& point, const glm::vec3& to_light) const {
-    return glm::dot(occluders_->normal(point.mesh, point.triangle), to_light);
-  }
-
-  [[nodiscard]] bool lit(const SurfacePoint& point, float side) const {
-    const auto material = static_cast<std::size_t>(scene_->meshes[point.mesh].material);
-    return (scene_->materials[material].double_sided ? std::abs(side) : side) > grazing;
-  }
-
-  const Scene* scene_;
-  const Occluders* occluders_;
-  const Light* light_;
-};
+// Whether a point is shadowed from a light, or shadows another one.
+bool shadows(const Scene& scene, const Occluders& occluders, const Light& light, const SurfacePoint& point) {
+  const auto facing = [&](const SurfacePoint& at, const glm::vec3& to_light) {
+    return glm::dot(occluders.normal(at.mesh, at.triangle), to_light);
+  };
+  const auto lit = [&](const SurfacePoint& at, float side) {
+    return (is_double_sided(scene, at) ? std::abs(side) : side) > grazing;
+  };
+  const glm::vec3 position = occluders.position(point);
+  const auto ray = ray_to_light(light, position);
+  if (!ray) return false;
+  const float side = facing(point, ray->direction);
+  const glm::vec3 start =
+      position + std::copysign(occluders.offset(), side) * occluders.normal(point.mesh, point.triangle);
+  if (lit(point, side) && occluders.blocked(start, ray->direction, ray->distance)) return true;
+  if (side <= 0.0F && occluders.open_from_behind(point.mesh)) return false;
+  const auto next = occluders.nearest(position, -ray->direction, 2.0F * occluders.offset());
+  return next && lit(*next, facing(*next, ray->direction)) && ray_to_light(light, occluders.position(*next));
+}
 
 constexpr int directions_per_point = 16;
 constexpr float lowest = 0.05F;  // over the plane, as a sine: lower ones meet the surface's own uneven triangles
@@ -160,7 +149,7 @@ glm::vec3 spread_direction(std::size_t point, int i) {
 
 bool sees_something(const Scene& scene, const Occluders& occluders, const SurfacePoint& point, std::size_t index) {
   const glm::vec3 normal = occluders.normal(point.mesh, point.triangle);
-  const bool both_sides = scene.materials[static_cast<std::size_t>(scene.meshes[point.mesh].material)].double_sided;
+  const bool both_sides = is_double_sided(scene, point);
   for (int i = 0; i < directions_per_point; ++i) {
     const glm::vec3 direction = spread_direction(index, i);
     const float elevation = glm::dot(direction, normal);
@@ -171,6 +160,18 @@ bool sees_something(const Scene& scene, const Occluders& occluders, const Surfac
   return false;
 }
 
+// Whether `test` (point, its index) is true for any point; in parallel.
+template <class Test>
+bool any_of(const std::vector<SurfacePoint>& points, const Test& test) {
+  std::atomic<bool> found = false;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
+      if (test(points[i], i)) found = true;
+    }
+  });
+  return found;
+}
+
 }  // namespace
 
 std::optional<LightRay> ray_to_light(const Light& light, const glm::vec3& point) {
@@ -178,14 +179,8 @@ std::optional<LightRay> ray_to_light(const Light& light, const glm::vec3& point)
 }
 
 bool hides_surroundings(const Scene& scene, const Occluders& occluders, std::size_t limit) {
-  const std::vector<SurfacePoint> points = spread_points(scene, occluders, limit);
-  std::atomic<bool> found = false;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
-      if (sees_something(scene, occluders, points[i], i)) found = true;
-    }
-  });
-  return found;
+  return any_of(spread_points(scene, occluders, limit),
+                [&](const SurfacePoint& point, std::size_t i) { return sees_something(scene, occluders, point, i); });
 }
 
 std::vector<SurfacePoint> spread_points(const Scene& scene, const Occluders& occluders, std::size_t limit) {
@@ -206,14 +201,9 @@ std::vector<bool> lights_casting_shadows(const Scene& scene, const Occluders& oc
   const std::vector<SurfacePoint> points = spread_points(scene, occluders, limit);
   std::vector<bool> casting;
   for (const Light& light : scene.lights) {
-    const Search search(scene, occluders, light);
-    std::atomic<bool> found = false;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end() && !found; ++i) {
-        if (search.shadows(points[i])) found = true;
-      }
-    });
-    casting.push_back(found);
+    casting.push_back(any_of(points, [&](const SurfacePoint& point, std::size_t /*index*/) {
+      return shadows(scene, occluders, light, point);
+    }));
   }
   return casting;
 }

@@ -44,6 +44,13 @@ std::array<const Vertex*, 3> corners_of(const Mesh& mesh, std::size_t triangle) 
           &mesh.vertices[mesh.indices[3 * triangle + 2]]};
 }
 
+// A value of vertices at a point of a triangle.
+template <class ValueOf>
+auto interpolated(const std::array<const Vertex*, 3>& corners, const SurfacePoint& point, const ValueOf& value_of) {
+  return (1.0F - point.u - point.v) * value_of(*corners[0]) + point.u * value_of(*corners[1]) +
+         point.v * value_of(*corners[2]);
+}
+
 // The last channel of the base-colour map, where an alpha mask needs it.
 Image alpha_of(const Material& material) {
   if (!material.alpha_cutoff || !material.base_color_map) return {};
@@ -56,14 +63,12 @@ Image alpha_of(const Material& material) {
 bool is_there(const Mesh& mesh, const Material& material, const Image& alpha_map, const SurfacePoint& point) {
   if (!material.alpha_cutoff) return true;
   const auto corners = corners_of(mesh, point.triangle);
-  const float vertex_alpha =
-      (1.0F - point.u - point.v) * corners[0]->color.a + point.u * corners[1]->color.a + point.v * corners[2]->color.a;
-  float alpha = material.base_color.a * vertex_alpha;
+  float alpha =
+      material.base_color.a * interpolated(corners, point, [](const Vertex& vertex) { return vertex.color.a; });
   if (material.base_color_map) {
     const TextureCoordinates& coordinates = material.base_color_map->coordinates;
-    const auto uv_of = [&](const Vertex& vertex) { return coordinates.set == 0 ? vertex.uv0 : vertex.uv1; };
-    const glm::vec2 uv =
-        (1.0F - point.u - point.v) * uv_of(*corners[0]) + point.u * uv_of(*corners[1]) + point.v * uv_of(*corners[2]);
+    const glm::vec2 uv = interpolated(
+        corners, point, [&](const Vertex& vertex) { return coordinates.set == 0 ? vertex.uv0 : vertex.uv1; });
     const glm::vec2 mapped = coordinates.transform * glm::vec3(uv, 1.0F);
     alpha *= alpha_map.at(texel_of(mapped.x, alpha_map.width, coordinates.wrap[0]),
                           texel_of(mapped.y, alpha_map.height, coordinates.wrap[1]))[0];
@@ -183,8 +188,7 @@ std::array<const Vertex*, 3> Occluders::corners(std::size_t mesh, std::size_t tr
 }
 
 glm::vec3 Occluders::position(const SurfacePoint& point) const {
-  const auto [a, b, c] = corners(point.mesh, point.triangle);
-  return (1.0F - point.u - point.v) * a->position + point.u * b->position + point.v * c->position;
+  return interpolated(corners(point.mesh, point.triangle), point, [](const Vertex& vertex) { return vertex.position; });
 }
 
 glm::vec3 Occluders::normal(std::size_t mesh, std::size_t triangle) const {

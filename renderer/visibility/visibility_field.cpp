@@ -171,39 +171,17 @@ void add_values(ContentHash& hash, const std::vector<Value>& values) {
 }
 
 void add_mesh(ContentHash& hash, const Mesh& mesh, const Material& material, bool both_sides) {
-  std::vector<glm::vec3> points, normals;
+  std::vector<glm::vec3> surface;
+  std::vector<glm::vec2> cut_out;  // what an alpha mask reads
   for (const Vertex& vertex : mesh.vertices) {
-    points.push_back(vertex.position);
-    normals.push_back(vertex.normal);
+    surface.insert(surface.end(), {vertex.position, vertex.normal});
+    if (material.alpha_cutoff) cut_out.insert(cut_out.end(), {vertex.uv0, vertex.uv1, glm::vec2(vertex.color.a)});
   }
-  add_values(hash, points);
-  add_values(hash, normals);
+  add_values(hash, surface);
   add_values(hash, mesh.indices);
+  add_values(hash, cut_out);
   hash.add(material.double_sided || both_sides ? "both sides" : "front");
-  hash.add(material.alpha_cutoff ? "cut out" : "whole");
-  if (!material.alpha_cutoff) return;
-  std::vector<glm::vec2> coordinates;
-  std::vector<float> alphas;
-  for (const Vertex& vertex : mesh.vertices) {
-    coordinates.insert(coordinates.end(), {vertex.uv0, vertex.uv1});
-    alphas.push_back(vertex.color.a);
-  }
-  add_values(hash, coordinates);
-  add_values(hash, alphas);
-  add_content(hash, material);
-}
-
-// Whether a field has layers of one size and a value for each vertex.
-bool fits(const VisibilityField& field, const Scene& scene) {
-  const Image& first = field.layers.front();
-  const auto like_first = [&](const Image& layer) {
-    return layer.width == first.width && layer.height == first.height && layer.channels == first.channels &&
-           layer.texels.size() == layer.texel_count() * static_cast<std::size_t>(layer.channels);
-  };
-  const auto vertices = [](const Mesh& mesh) { return mesh.vertices.size(); };
-  return first.width > 0 && first.height > 0 && first.channels > 0 && std::ranges::all_of(field.layers, like_first) &&
-         std::ranges::equal(field.meshes, scene.meshes, std::ranges::equal_to(), &std::vector<VertexVisibility>::size,
-                            vertices);
+  if (material.alpha_cutoff) add_content(hash, material);
 }
 
 }  // namespace
@@ -268,7 +246,10 @@ std::optional<VisibilityField> visibility_from_bytes(const ByteSource& bytes, co
   if (!in) return {};
   VisibilityField field;
   (*in)(field);
-  if (!in->finished() || field.layers.empty() || !fits(field, scene)) return {};
+  const auto vertices = [](const Mesh& mesh) { return mesh.vertices.size(); };
+  const bool fits = std::ranges::equal(field.meshes, scene.meshes, std::ranges::equal_to(),
+                                       &std::vector<VertexVisibility>::size, vertices);
+  if (!in->finished() || !fits) return {};
   return field;
 }
 

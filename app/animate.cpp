@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -35,42 +34,31 @@ constexpr const char* film_file = "images/film.mp4";
 constexpr int frames_per_second = 30;
 
 constexpr const char* animate_examples =
-    "The folder gets images/METHOD_NNNN and images/reference_NNNN (.exr and .png), index.html with the film and its\n"
-    "figures, results.json, results.csv and table.md. Finished frames stay in kept/, so an interrupted run "
-    "resumes.\n"
-    "`footprint merge` joins the parts of an animation that was rendered with --shard.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint animate model.gltf --methods toksvig --frames 60 -o out\n"
-    "  footprint animate ribbed_plane --methods direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out\n"
-    "  footprint animate carved_disk --methods direct,lean --path orbit --degrees 40 --video -o out\n"
-    "  footprint animate carved_disk --methods direct,lean --path light --axis 0,1,0 --shard 1/4 -o parts/1";
+    R"(The folder gets images/METHOD_NNNN and images/reference_NNNN (.exr and .png), index.html with the film and its
+figures, results.json, results.csv and table.md. Finished frames stay in kept/, so an interrupted run resumes.
+`footprint merge` joins the parts of an animation that was rendered with --shard.
 
-struct AnimateArguments {
-  explicit AnimateArguments(CLI::App& command) : run(command) {}
+Examples:
+  footprint animate model.gltf --methods toksvig --frames 60 -o out
+  footprint animate ribbed_plane --methods direct,toksvig --frames 30 --from 1 --to 16 --spp 64 -o out
+  footprint animate carved_disk --methods direct,lean --path orbit --degrees 40 --video -o out
+  footprint animate carved_disk --methods direct,lean --path light --axis 0,1,0 --shard 1/4 -o parts/1)";
 
-  RunOptions run;
+struct AnimateArguments : RunArguments {
+  explicit AnimateArguments(CLI::App& command) : RunArguments(command) {
+    add_output_folder(command, output, "Folder for index.html, results.json, results.csv, table.md, images/, kept/");
+    add_value(command, "--shard", shard, "I/N",
+              "Render part I of N of the frames into the output folder, for `footprint merge`");
+    command.add_flag("--video", video, "Also make images/film.mp4 with ffmpeg: all methods side by side");
+    command.add_flag("--fresh", fresh, "Render every frame again: discard the finished ones");
+    add_quiet_flag(command, quiet);
+  }
+
   std::string output = "out";
   std::string shard;  // empty: all frames
   bool video = false;
   bool fresh = false;
-  bool quiet = false;
 };
-
-void add_options(CLI::App& command, AnimateArguments& arguments) {
-  command
-      .add_option("-o,--output", arguments.output,
-                  "Folder for index.html, results.json, results.csv, table.md, images/, kept/")
-      ->type_name("DIR")
-      ->capture_default_str();
-  command
-      .add_option("--shard", arguments.shard,
-                  "Render part I of N of the frames into the output folder, for `footprint merge`")
-      ->type_name("I/N");
-  command.add_flag("--video", arguments.video, "Also make images/film.mp4 with ffmpeg: all methods side by side");
-  command.add_flag("--fresh", arguments.fresh, "Render every frame again: discard the finished ones");
-  add_quiet_flag(command, arguments.quiet);
-}
 
 // Nothing is measured but what frames differ by.
 RunSettings settings_of(const AnimateArguments& arguments) {
@@ -81,45 +69,23 @@ RunSettings settings_of(const AnimateArguments& arguments) {
   return settings;
 }
 
-FinishedWork finished_frames(const AnimateArguments& arguments, const RunSettings& settings) {
-  FinishedWork finished(finished_work_folder(arguments.output), maker_for(settings));
-  if (arguments.fresh) finished.clear();
-  return finished;
-}
-
-// Renders one part; `part.json` says that it is whole, and is there only then.
 void animate_part(const AnimateArguments& arguments, const RunSettings& settings) {
   if (arguments.video)
     throw Error(ErrorKind::usage, "--video", "a film cannot be made of a part",
                 "merge the parts, then run this without --shard over the merged folder: it reuses the frames");
-  const auto begin = std::chrono::steady_clock::now();
   const Shard shard = parse_shard(arguments.shard);
-  const FinishedWork finished = finished_frames(arguments, settings);
-  const fs::path output = arguments.output;
-  std::error_code none;
-  fs::remove(output / "part.json", none);
-  ProgressDisplay display(progress_style(arguments.quiet));
-  {
-    const OutputFolder scratch(output);  // never moved to its place
+  const FinishedWork finished = finished_work_of(settings, arguments.output, arguments.fresh);
+  make_part(shard, arguments.output, finished, [&]() -> PartFile {
+    ProgressDisplay display(progress_style(arguments.quiet));
+    const OutputFolder scratch(arguments.output);  // never moved to its place
     const auto [first, last] = range_of(shard, static_cast<std::size_t>(settings.view.zoom.frames));
     std::vector<std::size_t> frames(last - first);
     std::iota(frames.begin(), frames.end(), first);
-    const std::string run =
-        measure_views(settings, frames, scratch.path(), display.callback(), {.finished = &finished});
-    fs::create_directories(output);
-    write_part_file(output, {.kind = PartKind::animation,
-                             .experiment = settings.scene,
-                             .fingerprint = run,
-                             .maker = finished.maker(),
-                             .shard = shard,
-                             .only = {},
-                             .tile = settings.backend.tile,
-                             .node = host_name(),
-                             .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                             .keys = finished.used()});
-  }
-  display.finish();
-  write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
+    return {.kind = PartKind::animation,
+            .experiment = settings.scene,
+            .fingerprint = measure_views(settings, frames, scratch.path(), display.callback(), {.finished = &finished}),
+            .tile = settings.backend.tile};
+  });
 }
 
 // The pattern of all frames that the picture of frame 0 is of: "images/toksvig_%04d.png".
@@ -170,14 +136,10 @@ fs::path find_ffmpeg() {
 // otherwise than well, in its own words; an interrupt through `progress`: ffmpeg is ended.
 std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs::path& folder,
                       const Progress& progress) {
-  const fs::path errors = folder / "ffmpeg.log";
-  ChildProcess child(
-      {.program = ffmpeg, .arguments = film_arguments(animation), .errors = errors, .folder = folder},
-      Error(ErrorKind::machine, "--video", fmt::format("{} cannot be started", ffmpeg.string()), "try it by hand"));
-  const int exit_code = child.wait([&] { progress("the film", 0.0); });
-  std::string words = file_text(errors);
-  while (!words.empty() && words.back() == '\n') words.pop_back();
-  fs::remove(errors);
+  const auto [exit_code, words] = run_child(
+      {.program = ffmpeg, .arguments = film_arguments(animation), .errors = folder / "ffmpeg.log", .folder = folder},
+      Error(ErrorKind::machine, "--video", fmt::format("{} cannot be started", ffmpeg.string()), "try it by hand"),
+      [&] { progress("the film", 0.0); });
   if (exit_code == 0 && fs::is_regular_file(folder / film_file)) return film_file;
   throw Error(ErrorKind::machine, "--video",
               fmt::format("ffmpeg ended with {}: {}", exit_code, words.empty() ? "no message" : words.substr(0, 400)),
@@ -188,7 +150,7 @@ void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = settings_of(arguments);
   if (!arguments.shard.empty()) return animate_part(arguments, settings);
   const fs::path ffmpeg = arguments.video ? find_ffmpeg() : fs::path();
-  const FinishedWork finished = finished_frames(arguments, settings);
+  const FinishedWork finished = finished_work_of(settings, arguments.output, arguments.fresh);
   ProgressDisplay display(progress_style(arguments.quiet));
   write_and_print_animation(arguments.output, [&](const fs::path& folder) {
     ProgressParts parts(display.callback(), 20);
@@ -202,12 +164,8 @@ void run_animate(const AnimateArguments& arguments) {
 }  // namespace
 
 void add_animate_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("animate", "Render a zoom, an orbit or a light path, and measure error and flicker");
-  const auto arguments = std::make_shared<AnimateArguments>(*command);
-  add_options(*command, *arguments);
-  command->footer(animate_examples);
-  command->callback([arguments] { run_animate(*arguments); });
+  add_command(app, "animate", "Render a zoom, an orbit or a light path, and measure error and flicker",
+              animate_examples, run_animate);
 }
 
 }  // namespace footprint

@@ -1,4 +1,5 @@
-// `footprint bake`: writes a method's maps, with the GLSL that reads them, for other renderers.
+// `footprint bake` and `footprint shader`: a method's maps as files with the GLSL that reads them, and its module in a
+// shader language, for other renderers.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include "experiments/studies/stage.hpp"
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/pipeline/surface_program.hpp"
@@ -25,30 +27,38 @@ namespace footprint {
 namespace {
 
 constexpr const char* bake_examples =
-    "The output folder must be new or empty. It gets maps/MATERIAL/NAME.exr and .ktx2 with all mip levels (.png too "
-    "with\n"
-    "storage=unorm8), METHOD.glsl that reads them, and manifest.json (docs/guides/baking.md).\n"
-    "\n"
-    "For lean and leadr, SCENE may also be an EXR written by OpenImageIO's `maketx --bumpslopes`.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint bake model.gltf --method toksvig -o maps\n"
-    "  footprint bake model.gltf --method lean:storage=fp16 --footprint trilinear -o maps\n"
-    "  footprint bake model.gltf --method roughness_bake:preset=filament --gltf --gltf-level 2 -o maps\n"
-    "  footprint bake model.gltf --method lean --language hlsl,msl -o maps\n"
-    "  footprint bake bumps_slopes.exr --method lean -o maps";
+    R"(The output folder must be new or empty. It gets maps/MATERIAL/NAME.exr and .ktx2 with all mip levels (.png too with
+storage=unorm8), METHOD.glsl that reads them, and manifest.json (docs/guides/baking.md).
+
+For lean and leadr, SCENE may also be an EXR written by OpenImageIO's `maketx --bumpslopes`.
+
+Examples:
+  footprint bake model.gltf --method toksvig -o maps
+  footprint bake model.gltf --method lean:storage=fp16 --footprint trilinear -o maps
+  footprint bake model.gltf --method roughness_bake:preset=filament --gltf --gltf-level 2 -o maps
+  footprint bake model.gltf --method lean --language hlsl,msl -o maps
+  footprint bake bumps_slopes.exr --method lean -o maps)";
 
 constexpr int coarsest_level = 16;
 
-struct BakeArguments {
-  explicit BakeArguments(CLI::App& command) : run(command) {}
+struct BakeArguments : RunArguments {
+  explicit BakeArguments(CLI::App& command) : RunArguments(command) {
+    add_output_folder(command, output, "Folder for manifest.json, METHOD.glsl, maps/")->required();
+    add_value(command, "--language", languages, "LIST",
+              "Also write METHOD.LANGUAGE, a shader with an entry point: essl, hlsl, msl, spirv");
+    auto* copy =
+        command.add_flag("--gltf", gltf, "Also write a copy of the model, with the roughness maps that engines import");
+    command.add_option("--gltf-level", gltf_level, "Mip level of the copy's maps; 0 is the finest")
+        ->check(CLI::Range(0, coarsest_level))
+        ->needs(copy)
+        ->capture_default_str();
+    add_quiet_flag(command, quiet);
+  }
 
-  RunOptions run;
   std::string output;
   std::string languages;
   bool gltf = false;
   int gltf_level = 0;
-  bool quiet = false;
 };
 
 // Other than GLSL, which every bake has; each once.
@@ -183,27 +193,76 @@ void run_bake(const BakeArguments& arguments) {
   write_output(fmt::format("{}manifest: {}\n", text, (path / "manifest.json").string()));
 }
 
+constexpr const char* shader_examples =
+    R"(glsl is the module that `footprint bake` writes: functions for a fragment shader. The other languages are translated
+from it, with an entry point for one lamp and their inputs listed in the first lines (docs/guides/baking.md).
+
+Examples:
+  footprint shader lean --language hlsl -o lean.hlsl
+  footprint shader toksvig:storage=fp16 --language essl --footprint trilinear
+  footprint shader lean --language spirv --scene model.gltf -o lean.spv)";
+
+struct ShaderArguments : RunArguments {
+  explicit ShaderArguments(CLI::App& command) : RunArguments(command) {
+    add_value(command, "--language", language, "WORD", "glsl, essl, hlsl, msl or spirv")->capture_default_str();
+    add_value(command, "-o,--output", output, "FILE", "The file; default: standard output");
+    add_quiet_flag(command, quiet);
+  }
+
+  std::string language = "glsl";
+  std::string output;  // empty: standard output
+};
+
+// A model with the maps that most have, in two texels: only their kinds matter.
+Scene common_scene() {
+  Scene scene;
+  scene.name = scene.source = "the common material";
+  scene.horizon = Horizon::open;
+  Material& material = scene.materials.emplace_back();
+  material.name = "common";
+  Image normals(2, 1, 4), roughness(2, 1, 2);
+  normals.texels = {0.6F, 0.0F, 0.8F, 1.0F, 0.0F, 0.0F, 1.0F, 1.0F};
+  roughness.texels = {0.4F, 0.0F, 0.6F, 0.0F};
+  material.normal_map = {"normals", std::make_shared<const Image>(std::move(normals)), {}};
+  material.metallic_roughness_map = {"roughness", std::make_shared<const Image>(std::move(roughness)), {}};
+  return scene;
+}
+
+void write_shader(const BakeToFiles& bake, ShaderLanguage language, const std::string& output) {
+  const std::string text = shader_text(bake, language);
+  if (output.empty()) return write_output(text);
+  write_file_atomically(std::filesystem::path(output), text);
+  const bool is_binary = language == ShaderLanguage::spirv;
+  write_output((is_binary ? inputs_text(bake, language, "") : std::string()) + output + "\n");
+}
+
+void run_shader(const ShaderArguments& arguments) {
+  const RunSettings run = arguments.run.settings();
+  const ShaderLanguage language = word_value(shader_languages, arguments.language, "language", "--language");
+  if (language == ShaderLanguage::spirv && arguments.output.empty())
+    throw Error(ErrorKind::usage, "--language spirv", "is binary", "name a file with -o");
+  ProgressDisplay display(progress_style(arguments.quiet));
+  const Scene scene = run.scene.empty() ? common_scene() : load_scene(run.scene, run.scene_library, run.overrides);
+  const EffectSet effects = effects_on(derive_effects(scene));
+  const FootprintFilter footprint = footprint_filter_of(run, scene);
+  require_one_lookup(footprint, "shader");
+  const BakedMethod baked = bake_first(run, scene, effects, display.callback());
+  display.finish();
+  write_scene_notes(scene, arguments.quiet);
+  write_shader(
+      {.scene = scene, .baked = baked, .effects = effects, .footprint = footprint, .version = FOOTPRINT_VERSION},
+      language, arguments.output);
+}
+
 }  // namespace
 
 void add_bake_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("bake", "Write a method's maps as files, with the GLSL that reads them");
-  const auto arguments = std::make_shared<BakeArguments>(*command);
-  command->add_option("-o,--output", arguments->output, "Folder for manifest.json, METHOD.glsl, maps/")
-      ->type_name("DIR")
-      ->required();
-  command
-      ->add_option("--language", arguments->languages,
-                   "Also write METHOD.LANGUAGE, a shader with an entry point: essl, hlsl, msl, spirv")
-      ->type_name("LIST");
-  auto* gltf = command->add_flag("--gltf", arguments->gltf,
-                                 "Also write a copy of the model, with the roughness maps that engines import");
-  command->add_option("--gltf-level", arguments->gltf_level, "Mip level of the copy's maps; 0 is the finest")
-      ->check(CLI::Range(0, coarsest_level))
-      ->needs(gltf)
-      ->capture_default_str();
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(bake_examples);
-  command->callback([arguments] { run_bake(*arguments); });
+  add_command(app, "bake", "Write a method's maps as files, with the GLSL that reads them", bake_examples, run_bake);
+}
+
+void add_shader_command(CLI::App& app) {
+  add_command(app, "shader", "Write a method's shader in GLSL, ESSL, HLSL, Metal or SPIR-V", shader_examples,
+              run_shader);
 }
 
 }  // namespace footprint

@@ -53,58 +53,38 @@ std::vector<std::string> own_arguments() {
   return arguments;
 }
 
-// The error that the process printed, as this process's own.
-Error failure_of(int exit_code, std::string text) {
+// The last line that a process wrote, without its own prefix.
+std::string last_message(const std::string& errors) {
   constexpr std::string_view prefix = "footprint: ";
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (const auto at = text.rfind(prefix); at != std::string::npos) text = text.substr(at + prefix.size());
-  if (text.empty()) text = "a timing process ended without a message";
-  const bool known =
-      exit_code >= static_cast<int>(ErrorKind::check) && exit_code <= static_cast<int>(ErrorKind::machine);
-  return {known ? static_cast<ErrorKind>(exit_code) : ErrorKind::machine, "--processes", text};
+  const std::string line = errors.substr(errors.rfind('\n') + 1);
+  return line.starts_with(prefix) ? line.substr(prefix.size()) : line;
+}
+
+// The error that the process printed, as this process's own.
+Error failure_of(const ChildResult& result) {
+  const bool known = result.exit_code >= static_cast<int>(ErrorKind::check) &&
+                     result.exit_code <= static_cast<int>(ErrorKind::machine);
+  return {known ? static_cast<ErrorKind>(result.exit_code) : ErrorKind::machine, "--processes",
+          result.errors.empty() ? "a timing process ended without a message" : last_message(result.errors)};
 }
 
 FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path& scratch,
                         const std::function<void()>& tick) {
   const fs::path file = scratch / "times.json";
-  const fs::path errors = scratch / "times.log";
   std::vector<std::string> arguments = own_arguments();
   arguments.insert(arguments.end(), further.begin(), further.end());
   arguments.insert(arguments.end(), {timing_file_option, file.string(), "--quiet"});
-  ChildProcess child(
-      {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = errors, .folder = {}},
-      Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "give fewer --processes"));
-  const int exit_code = child.wait(tick);
-  if (exit_code != 0) throw failure_of(exit_code, file_text(errors));
+  const ChildResult result = run_child(
+      {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = scratch / "times.log", .folder = {}},
+      Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "give fewer --processes"), tick);
+  if (result.exit_code != 0) throw failure_of(result);
   FrameTimes times = nlohmann::json::parse(file_text(file)).get<FrameTimes>();
   fs::remove(file);
-  fs::remove(errors);
   return times;
 }
 
 constexpr std::array<const char*, 3> driver_folders{"/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d",
                                                     "/usr/local/share/vulkan/icd.d"};
-
-// A folder of this process that is removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string path = (fs::temp_directory_path() / "footprint-gpu-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr)
-      throw Error(ErrorKind::machine, path, "cannot be created", "set TMPDIR to a folder that can be written");
-    path_ = path;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 // The file with the path of Mesa's driver for AMD, for Vulkan's loader: that of VK_DRIVER_FILES if it is set.
 fs::path driver_file() {
@@ -124,32 +104,22 @@ fs::path driver_file() {
               "install the packages mesa-vulkan-drivers and libvulkan1");
 }
 
-// The last line that the process wrote, without its own prefix.
-std::string last_message(const fs::path& log) {
-  std::string text = file_text(log);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  const auto line = text.rfind('\n');
-  if (line != std::string::npos) text = text.substr(line + 1);
-  constexpr std::string_view prefix = "footprint: ";
-  return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
-}
-
-int run_process(const Chip& chip, const fs::path& driver, const fs::path& folder, const std::function<void()>& tick) {
-  ChildProcess child({.program = "/proc/self/exe",
-                      .arguments = {"footprint", compile_command, folder.string()},
-                      .errors = folder / "log.txt",
-                      .folder = {},
-                      .variables = {fmt::format("RADV_FORCE_FAMILY={}", chip.family),
-                                    fmt::format("VK_ICD_FILENAMES={}", driver.string()),
-                                    fmt::format("VK_DRIVER_FILES={}", driver.string()), "VK_INSTANCE_LAYERS=",
-                                    "RADV_DEBUG=", "RADV_PERFTEST=", "MESA_SHADER_CACHE_DISABLE=true"}},
-                     Error(ErrorKind::machine, "--gpu", "the compiling process cannot be started", "free memory"));
-  return child.wait(tick);
+ChildResult run_compiler(const Chip& chip, const fs::path& driver, const fs::path& folder,
+                         const std::function<void()>& tick) {
+  return run_child({.program = "/proc/self/exe",
+                    .arguments = {"footprint", compile_command, folder.string()},
+                    .errors = folder / "log.txt",
+                    .folder = {},
+                    .variables = {fmt::format("RADV_FORCE_FAMILY={}", chip.family),
+                                  fmt::format("VK_ICD_FILENAMES={}", driver.string()),
+                                  fmt::format("VK_DRIVER_FILES={}", driver.string()), "VK_INSTANCE_LAYERS=",
+                                  "RADV_DEBUG=", "RADV_PERFTEST=", "MESA_SHADER_CACHE_DISABLE=true"}},
+                   Error(ErrorKind::machine, "--gpu", "the compiling process cannot be started", "free memory"), tick);
 }
 
 ChipOutcomes compile(const Chip& chip, std::span<const SpirvProgram> programs, const Progress& progress) {
   const fs::path driver = driver_file();
-  const ScratchFolder scratch;
+  const OutputFolder scratch(fs::temp_directory_path() / "footprint-gpu");  // never moved to its place
   write_programs(programs, scratch.path());
   const auto tick = [&] {
     progress(fmt::format("compiling for {}", chip.name),
@@ -158,8 +128,8 @@ ChipOutcomes compile(const Chip& chip, std::span<const SpirvProgram> programs, c
   const std::string place = fmt::format("--gpu {}", chip.name);
   // A crash leaves one more outcome, unless it comes before the first program.
   for (std::size_t done = 0; done < programs.size();) {
-    const int exit_code = run_process(chip, driver, scratch.path(), tick);
-    if (exit_code > 0) throw Error(ErrorKind::machine, place, last_message(scratch.path() / "log.txt"));
+    const ChildResult result = run_compiler(chip, driver, scratch.path(), tick);
+    if (result.exit_code > 0) throw Error(ErrorKind::machine, place, last_message(result.errors));
     const std::size_t now = compiled_count(scratch.path());
     if (now == done)
       throw Error(ErrorKind::machine, place, "the driver crashes before it compiles",
@@ -171,42 +141,34 @@ ChipOutcomes compile(const Chip& chip, std::span<const SpirvProgram> programs, c
 
 }  // namespace
 
-ChildProcess::ChildProcess(ChildCommand command, const Error& failure) {
-  std::vector<char*> pointers;
-  pointers.reserve(command.arguments.size() + 1);
-  for (std::string& argument : command.arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
+ChildResult run_child(ChildCommand command, const Error& failure, const std::function<void()>& tick) {
+  std::vector<char*> arguments;
+  for (std::string& argument : command.arguments) arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
   std::vector<char*> variables = environment_with(command.variables);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, command.errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (!command.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, command.folder.c_str());
-  const int status = posix_spawn(&id_, command.program.c_str(), &actions, nullptr, pointers.data(), variables.data());
+  pid_t id = 0;
+  const int status = posix_spawn(&id, command.program.c_str(), &actions, nullptr, arguments.data(), variables.data());
   posix_spawn_file_actions_destroy(&actions);
-  if (status == 0) return;
-  id_ = 0;
-  throw failure;
-}
-
-ChildProcess::~ChildProcess() {
-  if (id_ == 0) return;
-  kill(id_, SIGKILL);
-  waitpid(id_, nullptr, 0);
-}
-
-std::optional<int> ChildProcess::poll() {
-  int status = 0;
-  if (waitpid(id_, &status, WNOHANG) == 0) return std::nullopt;
-  id_ = 0;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-int ChildProcess::wait(const std::function<void()>& tick) {
-  for (;;) {
-    tick();
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    if (const std::optional<int> exit_code = poll()) return *exit_code;
+  if (status != 0) throw failure;
+  int ending = 0;
+  try {
+    do {
+      tick();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    } while (waitpid(id, &ending, WNOHANG) == 0);
+  } catch (...) {
+    kill(id, SIGKILL);
+    waitpid(id, nullptr, 0);
+    throw;
   }
+  std::string errors = file_text(command.errors);
+  errors.erase(errors.find_last_not_of('\n') + 1);
+  fs::remove(command.errors);
+  return {WIFEXITED(ending) ? WEXITSTATUS(ending) : -1, std::move(errors)};
 }
 
 void write_frame_times(const fs::path& file, const FrameTimes& times) {

@@ -2,11 +2,8 @@
 // speed from process to process, a driver chooses its chip once, and it may crash.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,31 +17,20 @@ namespace footprint {
 struct ChildCommand {
   std::filesystem::path program;         ///< absolute
   std::vector<std::string> arguments;    ///< with the program's name first
-  std::filesystem::path errors;          ///< file for its standard error
+  std::filesystem::path errors;          ///< file for its standard error, which is removed
   std::filesystem::path folder;          ///< working directory; empty: this program's own
   std::vector<std::string> variables{};  ///< NAME=VALUE, in the place of this program's own
 };
 
-/// A child process that does not outlive its owner.
-class ChildProcess {
- public:
-  /// Starts it. Errors: `failure` if it cannot be started.
-  ChildProcess(ChildCommand command, const Error& failure);
-  ChildProcess(const ChildProcess&) = delete;
-  ChildProcess& operator=(const ChildProcess&) = delete;
-  ChildProcess(ChildProcess&&) = delete;
-  ChildProcess& operator=(ChildProcess&&) = delete;
-  ~ChildProcess();
-
-  /// The exit code, or -1 if a signal ended it. Empty while it runs.
-  [[nodiscard]] std::optional<int> poll();
-
-  /// Waits for it and returns the exit code. Calls `tick` meanwhile, which may throw.
-  [[nodiscard]] int wait(const std::function<void()>& tick);
-
- private:
-  pid_t id_ = 0;
+/// The end of a command.
+struct ChildResult {
+  int exit_code = 0;   ///< -1: a signal ended it
+  std::string errors;  ///< its standard error, without an end of the line
 };
+
+/// Runs a command to its end. Calls `tick` meanwhile, which may throw: the process is killed then. Errors: `failure` if
+/// it cannot be started.
+[[nodiscard]] ChildResult run_child(ChildCommand command, const Error& failure, const std::function<void()>& tick);
 
 /// The option that makes a command take times, write them to its file and do nothing else.
 inline constexpr const char* timing_file_option = "--timing-file";

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -19,31 +18,24 @@ namespace footprint {
 namespace {
 
 constexpr const char* compare_examples =
-    "Examples:\n"
-    "  footprint compare model.gltf -o out\n"
-    "  footprint compare model.gltf --methods direct,toksvig:storage=fp16 --distance 1,2,4,8 -o out\n"
-    "  footprint compare carved_disk --spp 256 --size 1024x768 --seed 7 -o out";
+    R"(Examples:
+  footprint compare model.gltf -o out
+  footprint compare model.gltf --methods direct,toksvig:storage=fp16 --distance 1,2,4,8 -o out
+  footprint compare carved_disk --spp 256 --size 1024x768 --seed 7 -o out)";
 
-struct CompareArguments {
-  explicit CompareArguments(CLI::App& command) : run(command) {}
+struct CompareArguments : RunArguments {
+  explicit CompareArguments(CLI::App& command) : RunArguments(command) {
+    add_output_folder(command, output, "Folder for results.json, results.csv, table.md, index.html, images/");
+    command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
+    add_quiet_flag(command, quiet);
+    command.add_flag("-v,--verbose", verbose,
+                     "Print all of table.md: errors by cause, pairs of methods, supersampling, bakes");
+  }
 
-  RunOptions run;
   std::string output = "out";
   std::string timing_file;  // not empty: this is a process that only takes times
-  bool quiet = false, verbose = false;
+  bool verbose = false;
 };
-
-void add_options(CLI::App& command, CompareArguments& arguments) {
-  command
-      .add_option("-o,--output", arguments.output,
-                  "Folder for results.json, results.csv, table.md, index.html, images/")
-      ->type_name("DIR")
-      ->capture_default_str();
-  command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
-  add_quiet_flag(command, arguments.quiet);
-  command.add_flag("-v,--verbose", arguments.verbose,
-                   "Print all of table.md: errors by cause, pairs of methods, supersampling, bakes");
-}
 
 // Everything is written to a hidden folder and moved to its place at the end. The hidden folder has a page after the
 // first distance.
@@ -86,11 +78,8 @@ void run_compare_command(const CompareArguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "Compare methods with a supersampled reference (the main command)");
-  const auto arguments = std::make_shared<CompareArguments>(*command);
-  add_options(*command, *arguments);
-  command->footer(compare_examples);
-  command->callback([arguments] { run_compare_command(*arguments); });
+  add_command(app, "compare", "Compare methods with a supersampled reference (the main command)", compare_examples,
+              run_compare_command);
 }
 
 }  // namespace footprint

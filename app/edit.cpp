@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,41 +17,33 @@ namespace footprint {
 namespace {
 
 constexpr const char* edit_examples =
-    "KIND.PARAMETER is a parameter of the scene's [microgeometry] (docs/reference/scenes.md) or brdf.PARAMETER:\n"
-    "roughness, exponent, alpha, kappa, specular, metallic, or measured with two MERL files. The folder gets\n"
-    "images/METHOD_NNNN (.exr and .png), edit.json, edit.csv and table.md.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint edit woven_cloth --set weave.warp_width=0.1:0.5 --frames 10 -o out\n"
-    "  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o "
-    "out\n"
-    "  footprint edit ribbed_plane --set brdf.exponent=10:1000 --method xu_vmf -o out";
+    R"(KIND.PARAMETER is a parameter of the scene's [microgeometry] (docs/reference/scenes.md) or brdf.PARAMETER:
+roughness, exponent, alpha, kappa, specular, metallic, or measured with two MERL files. The folder gets
+images/METHOD_NNNN (.exr and .png), edit.json, edit.csv and table.md.
 
-struct EditArguments {
-  explicit EditArguments(CLI::App& command) : run(command) {}
+Examples:
+  footprint edit woven_cloth --set weave.warp_width=0.1:0.5 --frames 10 -o out
+  footprint edit woven_cloth --set weave.warp_width=0.9:0.3 --set weave.height=0.1 --method iwasaki_sg:j=4 -o out
+  footprint edit ribbed_plane --set brdf.exponent=10:1000 --method xu_vmf -o out)";
 
-  RunOptions run;
+struct EditArguments : RunArguments {
+  explicit EditArguments(CLI::App& command) : RunArguments(command) {
+    add_value(command, "--set", sets, "KIND.PARAMETER=FROM:TO",
+              "Change a parameter from FROM to TO, or set it to VALUE; may be repeated")
+        ->required()
+        ->expected(1)
+        ->take_all();
+    command.add_option("--frames", frames, "Number of edits, at equal steps of the parameters")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    add_output_folder(command, output, "Folder for edit.json, edit.csv, table.md, images/");
+    add_quiet_flag(command, quiet);
+  }
+
   std::vector<std::string> sets;
   int frames = EditSettings{}.frames;
   std::string output = "out";
-  bool quiet = false;
 };
-
-void add_options(CLI::App& command, EditArguments& arguments) {
-  command
-      .add_option("--set", arguments.sets, "Change a parameter from FROM to TO, or set it to VALUE; may be repeated")
-      ->type_name("KIND.PARAMETER=FROM:TO")
-      ->required()
-      ->expected(1)
-      ->take_all();
-  command.add_option("--frames", arguments.frames, "Number of edits, at equal steps of the parameters")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command.add_option("-o,--output", arguments.output, "Folder for edit.json, edit.csv, table.md, images/")
-      ->type_name("DIR")
-      ->capture_default_str();
-  add_quiet_flag(command, arguments.quiet);
-}
 
 EditSettings settings_from(const EditArguments& arguments) {
   EditSettings settings{.run = arguments.run.settings(), .sweeps = {}, .frames = arguments.frames};
@@ -80,12 +71,8 @@ void run_edit_command(const EditArguments& arguments) {
 }  // namespace
 
 void add_edit_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("edit", "Edit small-scale geometry or the base BRDF frame by frame and time each stage");
-  const auto arguments = std::make_shared<EditArguments>(*command);
-  add_options(*command, *arguments);
-  command->footer(edit_examples);
-  command->callback([arguments] { run_edit_command(*arguments); });
+  add_command(app, "edit", "Edit small-scale geometry or the base BRDF frame by frame and time each stage",
+              edit_examples, run_edit_command);
 }
 
 }  // namespace footprint

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <regex>
@@ -18,6 +19,7 @@
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/process.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -82,39 +84,26 @@ ExperimentReport report_matrix(const Group& group, std::vector<Results> members,
   return std::move(results.report);
 }
 
-// Runs groups into their folders, prints their results and passes them to the listener.
-class Runs {
- public:
-  Runs(const RequestedExperiments& requested, const fs::path& output, const FinishedWork& finished, bool quiet,
-       const RunListener& listener)
-      : requested_(requested), output_(output), finished_(finished), quiet_(quiet), listener_(listener) {}
-
-  void run(const Group& group) const {
-    NoiseGuard guard(group.judged(), group.experiments);
-    std::vector<Results> all;
-    for (const Experiment& experiment : group.experiments) {
-      ProgressDisplay display(progress_style(quiet_));
-      auto [results, path] = write_whole(below(requested_.folder_of(experiment)), [&](OutputFolder& folder) {
-        return run_into(experiment, folder, finished_, display.callback(), guard.watch(experiment));
-      });
-      display.finish();
-      if (group.matrix == nullptr) print_results(results, path);
-      listener_.experiment(results);
-      all.push_back(std::move(results));
-    }
-    if (group.matrix == nullptr) return;
-    listener_.matrix(report_matrix(group, std::move(all), below(requested_.folder_of(*group.matrix))));
+// Runs a group into its folders below `output`, prints its results and passes them to the listener.
+// failed: set to the first failure of a row, if it has none.
+void run_group(const RequestedExperiments& requested, const Group& group, const fs::path& output,
+               const FinishedWork& finished, bool quiet, const RunListener& listener, std::optional<Error>& failed) {
+  NoiseGuard guard(group.judged(), group.experiments);
+  std::vector<Results> all;
+  for (const Experiment& experiment : group.experiments) {
+    ProgressDisplay display(progress_style(quiet));
+    auto [results, path] = write_whole(output / requested.folder_of(experiment), [&](OutputFolder& folder) {
+      return run_into(experiment, folder, finished, display.callback(), guard.watch(experiment));
+    });
+    display.finish();
+    if (group.matrix == nullptr) print_results(results, path);
+    listener.experiment(results);
+    if (!failed) failed = row_failures(results);
+    all.push_back(std::move(results));
   }
-
- private:
-  [[nodiscard]] fs::path below(const fs::path& folder) const { return folder.empty() ? output_ : output_ / folder; }
-
-  const RequestedExperiments& requested_;
-  const fs::path& output_;
-  const FinishedWork& finished_;
-  bool quiet_;
-  const RunListener& listener_;
-};
+  if (group.matrix == nullptr) return;
+  listener.matrix(report_matrix(group, std::move(all), output / requested.folder_of(*group.matrix)));
+}
 
 // The units of all experiments in one row: which experiment each is of.
 struct Assigned {
@@ -282,21 +271,44 @@ std::string reuse_text(const FinishedWork& finished) {
                      finished.reused(), finished.folder().string());
 }
 
-std::string maker_for(const RunSettings& run) {
+FinishedWork finished_work_of(const RunSettings& run, const fs::path& output, bool fresh) {
   const gl::Context context(run.backend.context);
-  return maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version));
+  FinishedWork finished(finished_work_folder(output),
+                        maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version)));
+  if (fresh) finished.clear();
+  return finished;
 }
 
-void run_and_print(const RequestedExperiments& requested, const fs::path& output, const FinishedWork& finished,
-                   bool quiet, const RunListener& listener) {
-  const Runs runs(requested, output, finished, quiet, listener);
+void make_part(const Shard& shard, const fs::path& output, const FinishedWork& finished,
+               const std::function<PartFile()>& measure) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::error_code none;
+  fs::remove(output / "part.json", none);
+  PartFile part = measure();
+  part.maker = finished.maker();
+  part.shard = shard;
+  part.node = host_name();
+  part.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  part.keys = finished.used();
+  fs::create_directories(output);
+  write_part_file(output, part);
+  write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
+}
+
+std::optional<Error> run_and_print(const RequestedExperiments& requested, const fs::path& output,
+                                   const FinishedWork& finished, bool quiet, const RunListener& listener) {
+  std::optional<Error> failed;
   const std::vector<Group> groups = groups_of(requested);
-  if (groups.size() == 1) return runs.run(groups.front());
+  const auto run = [&](const Group& group) { run_group(requested, group, output, finished, quiet, listener, failed); };
+  if (groups.size() == 1) {
+    run(groups.front());
+    return failed;
+  }
   std::vector<std::string> missing;
   ErrorKind kind = ErrorKind::machine;
   for (const Group& group : groups) {
     try {
-      runs.run(group);
+      run(group);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::interrupted) throw;
       if (missing.empty()) kind = error.kind();
@@ -304,7 +316,7 @@ void run_and_print(const RequestedExperiments& requested, const fs::path& output
       write_message(fmt::format("{} was not run: {}", group.judged().name, error.what()));
     }
   }
-  if (missing.empty()) return;
+  if (missing.empty()) return failed;
   throw Error(
       kind, requested.file.string(),
       fmt::format("{} of {} experiments were not run: {}", missing.size(), groups.size(), fmt::join(missing, ", ")),

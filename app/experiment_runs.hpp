@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/part_file.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "experiments/studies/finished_work.hpp"
+#include "renderer/core/error.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
@@ -56,8 +58,9 @@ struct RequestedExperiments {
 /// A message on the parts of an earlier run that were reused, with the option to measure again.
 [[nodiscard]] std::string reuse_text(const FinishedWork& finished);
 
-/// The program and the OpenGL renderer that measure a run with these settings. Errors (machine): no OpenGL.
-[[nodiscard]] std::string maker_for(const RunSettings& run);
+/// The finished work of a run with these settings below its output folder.
+/// fresh: discards that of earlier runs. Errors (machine): no OpenGL.
+[[nodiscard]] FinishedWork finished_work_of(const RunSettings& run, const std::filesystem::path& output, bool fresh);
 
 /// The receivers of results.
 struct RunListener {
@@ -69,9 +72,15 @@ struct RunListener {
 /// below it, and prints the tables; of a matrix the one over all members, which is written to its folder too. Errors:
 /// those of run_experiment, and (usage) a threshold within the reference's noise; work that is finished by then
 /// stays. Of several experiments one that cannot be run is passed over: the error comes at the end, of the first
-/// one's kind.
-void run_and_print(const RequestedExperiments& requested, const std::filesystem::path& output,
-                   const FinishedWork& finished, bool quiet, const RunListener& listener);
+/// one's kind. Returns the error of the first run in which rows failed.
+[[nodiscard]] std::optional<Error> run_and_print(const RequestedExperiments& requested,
+                                                 const std::filesystem::path& output, const FinishedWork& finished,
+                                                 bool quiet, const RunListener& listener);
+
+/// Makes part `shard` of a run and prints its folder. `measure` does the work and returns what it is a part of.
+/// part.json says that the part is whole, and is there only then.
+void make_part(const Shard& shard, const std::filesystem::path& output, const FinishedWork& finished,
+               const std::function<PartFile()>& measure);
 
 /// Measures one part of all experiments together and stores it in `finished`. Images are below `output` until they are
 /// stored.

@@ -1,9 +1,11 @@
-// `footprint explain`: the effects of a scene with their reasons, its passes, textures and bytes, and their costs.
+// `footprint explain`: the effects of a scene with their reasons, its passes, textures and bytes, and their costs; and
+// `footprint cost`: what each method costs on GPUs, estimated from a driver's compiler.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,14 +15,18 @@
 #include <utility>
 #include <vector>
 
+#include "app/child_process.hpp"
 #include "app/commands.hpp"
 #include "app/messages.hpp"
+#include "app/output.hpp"
 #include "app/run_options.hpp"
 #include "experiments/studies/frame_times.hpp"
+#include "experiments/studies/gpu_cost.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/pipeline/timing.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/json_archive.hpp"
 
 namespace footprint {
 namespace {
@@ -28,89 +34,47 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* explain_examples =
-    "Examples:\n"
-    "  footprint explain model.gltf                 effects with reasons, passes, textures, memory\n"
-    "  footprint explain model.gltf --method toksvig --cost\n"
-    "  footprint explain model.gltf --json          for programs";
+    R"(Examples:
+  footprint explain model.gltf                 effects with reasons, passes, textures, memory
+  footprint explain model.gltf --method toksvig --cost
+  footprint explain model.gltf --json          for programs)";
 
-struct ExplainArguments {
-  explicit ExplainArguments(CLI::App& command) : run(command) {}
+struct ExplainArguments : RunArguments {
+  explicit ExplainArguments(CLI::App& command) : RunArguments(command) {
+    command.add_flag("--cost", cost, "Measure what each effect adds to a frame's time");
+    command.add_flag("--json", json, "Print JSON");
+    add_quiet_flag(command, quiet);
+  }
 
-  RunOptions run;
   bool cost = false;
   bool json = false;
-  bool quiet = false;
-};
-
-// A texture of the method, over all materials.
-struct TextureUse {
-  std::string name;
-  std::size_t bytes = 0;
 };
 
 // Bytes of the scene's maps, each once however many materials share it.
-struct MapBytes {
+Json map_bytes(const Scene& scene) {
   std::size_t decoded = 0;  // as 32-bit floats
   std::size_t stored = 0;   // at their own depth
-};
-
-MapBytes map_bytes(const Scene& scene) {
-  MapBytes bytes;
   std::set<MapTexels> counted;
   for (const Material& material : scene.materials) {
     for (const TextureMap* map : maps_of(material)) {
       const MapTexels& texels = map->image;
       if (!counted.insert(texels).second) continue;
-      bytes.decoded += texels.texel_count() * static_cast<std::size_t>(texels.channels()) * sizeof(float);
-      bytes.stored += texels.byte_count();
+      decoded += texels.texel_count() * static_cast<std::size_t>(texels.channels()) * sizeof(float);
+      stored += texels.byte_count();
     }
   }
-  return bytes;
+  return {{"decoded_maps", decoded}, {"kept_maps", stored}};
 }
 
-// The shadow maps, rendered once before the first frame; none if nothing casts a shadow.
-struct ShadowPass {
-  std::size_t maps = 0, draws = 0, bytes = 0;
-  int resolution = 0;
-};
-
-// The environment's visibility at the vertices, computed once before the first frame; none if nothing hides it.
-struct VisibilityPass {
-  std::size_t vertices = 0, bytes = 0;
-  double error = 0;  // radians
-};
-
-// Milliseconds of a frame with every effect of the scene, and without one of them.
-struct EffectCost {
-  Effect effect = Effect::diffuse;
-  double with_ms = 0, without_ms = 0;  // medians over the repeats
-  double added_ms = 0;                 // median of the differences, frame by frame; noise can make it negative
-};
-
-// Everything that `explain` reports.
-struct Explanation {
-  std::vector<ModelChoice> choices;
-  std::vector<std::string> warnings, supplied;
-  std::vector<EffectDecision> effects;
-  MapBytes maps;
-  std::string method;
-  std::vector<std::string> left_out;  // effects of the scene that the method does not support
-  std::size_t draws = 0;              // of the forward pass: one per material
-  std::size_t shared_bytes = 0, method_bytes = 0;
-  std::vector<TextureUse> textures;
-  std::size_t shader_lines = 0;
-  std::optional<ShadowPass> shadows;
-  std::optional<VisibilityPass> visibility;
-  std::vector<EffectCost> costs;
-};
-
-EffectCost cost_of(Effect effect, const std::vector<double>& with, const std::vector<double>& without) {
+// Milliseconds of a frame with every effect of the scene, and without one of them: medians over the repeats, and of the
+// differences, frame by frame; noise can make those negative.
+Json cost_of(Effect effect, const std::vector<double>& with, const std::vector<double>& without) {
   std::vector<double> added(with.size());
   std::ranges::transform(with, without, added.begin(), std::minus{});
-  return {.effect = effect,
-          .with_ms = quantile(with, 0.5),
-          .without_ms = quantile(without, 0.5),
-          .added_ms = quantile(added, 0.5)};
+  return {{"effect", effect_name(effect)},
+          {"with_ms", quantile(with, 0.5)},
+          {"without_ms", quantile(without, 0.5)},
+          {"added_ms", quantile(added, 0.5)}};
 }
 
 // Whether more rounds would change little, because the intervals of all ratios to the first frame are narrow.
@@ -136,7 +100,7 @@ Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet
 }
 
 // Renders the scene by the stage's first method with all effects and without each one, frames interleaved.
-std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettings& run, const Progress& progress) {
+Json measure_effect_costs(const Stage& stage, const RunSettings& run, const Progress& progress) {
   const View view = stage.view(1.0);
   std::vector<Effect> measured;
   std::vector<Variant> variants;
@@ -157,76 +121,106 @@ std::vector<EffectCost> measure_effect_costs(const Stage& stage, const RunSettin
       [&](std::string_view what, double done) { progress(what, 0.5 + 0.5 * done); }, are_known);
   stage.context().check("timing the effects");
 
-  std::vector<EffectCost> costs;
+  Json costs;
   for (std::size_t i = 0; i < measured.size(); ++i) costs.push_back(cost_of(measured[i], times[0], times[i + 1]));
   return costs;
 }
 
-std::vector<TextureUse> texture_uses(const BakedMethod& baked) {
-  std::vector<TextureUse> uses;
+// The textures of the method by their names, with their bytes over all materials.
+Json texture_uses(const BakedMethod& baked) {
+  Json uses = Json::array();
   for (std::size_t material = 0; material < baked.materials.size(); ++material) {
     const std::vector<PrefilteredTexture>& textures = baked.materials[material].textures;
     for (std::size_t i = 0; i < textures.size(); ++i) {
-      auto use = std::ranges::find(uses, textures[i].name, &TextureUse::name);
-      if (use == uses.end()) use = uses.insert(uses.end(), {.name = textures[i].name});
-      if (!baked.shared.contains({material, i})) use->bytes += byte_count(textures[i]);
+      auto use = std::ranges::find_if(uses, [&](const Json& known) { return known["name"] == textures[i].name; });
+      if (use == uses.end()) use = uses.insert(uses.end(), Json{{"name", textures[i].name}, {"bytes", 0U}});
+      Json& bytes = (*use)["bytes"];
+      if (!baked.shared.contains({material, i})) bytes = bytes.get<std::size_t>() + byte_count(textures[i]);
     }
   }
   return uses;
 }
 
-Explanation explain(const ExplainArguments& arguments, const Progress& progress) {
+// The shadow maps and the environment's visibility, made once before the first frame, if there are any; the forward
+// pass, which draws each material.
+Json passes_of(const Stage& stage) {
+  Json passes;
+  if (const auto& maps = stage.gpu_scene().shadow_maps()) {
+    passes.push_back({{"name", "shadow_maps"},
+                      {"draws", maps->draws()},
+                      {"maps", maps->views().views.size()},
+                      {"resolution", maps->resolution()},
+                      {"bytes", maps->bytes()},
+                      {"once", true}});
+  }
+  if (const GpuVisibility* visibility = stage.gpu_scene().visibility()) {
+    passes.push_back({{"name", "environment_visibility"},
+                      {"vertices", visibility->vertex_count()},
+                      {"error_radians", visibility->error()},
+                      {"bytes", visibility->bytes()},
+                      {"once", true}});
+  }
+  const std::string& shader = stage.methods().front().frames().program().fragment_text();
+  passes.push_back({{"name", "forward"},
+                    {"draws", stage.gpu_scene().batches().size()},
+                    {"shader_lines", std::ranges::count(shader, '\n')}});
+  return passes;
+}
+
+// Everything that `explain` reports, as --json prints it.
+Json explain(const ExplainArguments& arguments, const Progress& progress) {
   const RunSettings run = arguments.run.settings();
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
   const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""));
-  const StagedMethod& method = stage.methods().front();
-
-  Explanation out;
-  out.choices = stage.scene().choices;
-  out.warnings = stage.scene().warnings;
-  out.supplied = stage.scene().defaults;
-  out.effects = stage.decisions();
-  out.maps = map_bytes(stage.scene());
-  out.method = run.methods.front().text;
-  out.left_out = effect_names(stage.effects() & ~method.baked().method->info.honours);
-  out.draws = stage.gpu_scene().batches().size();
-  out.shared_bytes = stage.gpu_scene().shared_bytes();
-  out.method_bytes = method.baked().bytes;
-  out.textures = texture_uses(method.baked());
-  out.shader_lines = static_cast<std::size_t>(std::ranges::count(method.frames().program().fragment_text(), '\n'));
-  if (const auto& maps = stage.gpu_scene().shadow_maps()) {
-    out.shadows = {.maps = maps->views().views.size(),
-                   .draws = maps->draws(),
-                   .bytes = maps->bytes(),
-                   .resolution = maps->resolution()};
-  }
-  if (const GpuVisibility* visibility = stage.gpu_scene().visibility()) {
-    out.visibility = {
-        .vertices = visibility->vertex_count(), .bytes = visibility->bytes(), .error = visibility->error()};
-  }
-  if (arguments.cost) out.costs = measure_effect_costs(stage, run, parts.next(2, ""));
+  const BakedMethod& baked = stage.methods().front().baked();
+  Json out{{"choices", to_json_value(stage.scene().choices)},
+           {"supplied", stage.scene().defaults},
+           {"warnings", stage.scene().warnings}};
+  for (const auto& [effect, on, reason] : stage.decisions())
+    out["effects"].push_back({{"effect", effect_name(effect)}, {"on", on}, {"reason", reason}});
+  out["method"] = run.methods.front().text;
+  out["left_out"] = effect_names(stage.effects() & ~baked.method->info.honours);
+  out["passes"] = passes_of(stage);
+  out["memory"] = map_bytes(stage.scene());
+  out["shared_bytes"] = stage.gpu_scene().shared_bytes();
+  out["method_bytes"] = baked.bytes;
+  out["textures"] = texture_uses(baked);
+  if (!arguments.cost) return out;
+  for (const Json& cost : measure_effect_costs(stage, run, parts.next(2, ""))) out["cost"].push_back(cost);
   return out;
 }
 
-std::string text_of(const ShadowPass& pass) {
-  return fmt::format("\nshadow maps, rendered once\n  {:<24} {}\n  {:<24} {} of {}x{}\n  {:<24} {}\n", "draws",
-                     pass.draws, "maps", pass.maps, pass.resolution, pass.resolution, "bytes",
-                     readable_bytes(pass.bytes));
+std::string line_of(std::string_view label, const Json& value, std::string_view unit = "") {
+  return fmt::format("  {:<24} {}{}\n", label, value.is_string() ? value.get<std::string>() : value.dump(), unit);
 }
 
-std::string text_of(const VisibilityPass& pass) {
-  return fmt::format("\nenvironment visibility, computed once\n  {:<24} {}\n  {:<24} {:.3f} rad\n  {:<24} {}\n",
-                     "vertices", pass.vertices, "error of the distance", pass.error, "bytes",
-                     readable_bytes(pass.bytes));
+std::string bytes_line(std::string_view label, const Json& bytes) {
+  return line_of(label, readable_bytes(bytes.get<std::uint64_t>()));
 }
 
-// The names of the choices, with a star before the selected one.
-std::string text_of(const ModelChoice& choice) {
-  std::string text;
-  for (std::size_t i = 0; i < choice.names.size(); ++i) {
-    text += fmt::format("{}{}{} `{}`", i == 0 ? "" : ", ", choice.taken == i ? "*" : "", i, choice.names[i]);
+std::string text_of_pass(const Json& pass, const Json& explanation) {
+  if (pass["name"] == "shadow_maps")
+    return "\nshadow maps, rendered once\n" + line_of("draws", pass["draws"]) +
+           line_of("maps", fmt::format("{0} of {1}x{1}", pass["maps"].get<int>(), pass["resolution"].get<int>())) +
+           bytes_line("bytes", pass["bytes"]);
+  if (pass["name"] == "environment_visibility")
+    return "\nenvironment visibility, computed once\n" + line_of("vertices", pass["vertices"]) +
+           line_of("error of the distance", fmt::format("{:.3f} rad", pass["error_radians"].get<double>())) +
+           bytes_line("bytes", pass["bytes"]);
+  return fmt::format("\nforward pass with {}\n", explanation["method"].get<std::string>()) +
+         line_of("draws", pass["draws"]) + line_of("fragment shader", pass["shader_lines"], " lines") +
+         bytes_line("shared by all methods", explanation["shared_bytes"]) +
+         bytes_line("the method's own", explanation["method_bytes"]);
+}
+
+// The names of a choice, with a star before the selected one.
+std::string text_of_choice(const Json& choice) {
+  std::vector<std::string> names;
+  for (const Json& name : choice["names"]) {
+    const bool is_taken = choice["taken"] == names.size();
+    names.push_back(fmt::format("{}{} `{}`", is_taken ? "*" : "", names.size(), name.get<std::string>()));
   }
-  return text;
+  return fmt::format("{:<24} {}", choice["kind"].get<std::string>(), fmt::join(names, ", "));
 }
 
 std::string lines_of(std::string_view heading, const std::vector<std::string>& lines) {
@@ -235,114 +229,86 @@ std::string lines_of(std::string_view heading, const std::vector<std::string>& l
   return text.empty() ? text : fmt::format("{}\n{}\n", heading, text);
 }
 
-// The choices of the model file, the defaults supplied for it, and the warnings about it.
-std::string text_of_input(const Explanation& explanation) {
+std::string text_of(const Json& explanation) {
   std::vector<std::string> choices;
-  for (const ModelChoice& choice : explanation.choices) {
-    choices.push_back(fmt::format("{:<24} {}", choice.kind, text_of(choice)));
-  }
-  return lines_of("choices (* = selected)", choices) + lines_of("supplied", explanation.supplied) +
-         lines_of("warnings", explanation.warnings);
-}
-
-std::string text_of(const Explanation& explanation) {
-  std::string text = text_of_input(explanation) + "effects\n";
-  for (const EffectDecision& decision : explanation.effects) {
-    text +=
-        fmt::format("  {:<24} {:<4} {}\n", effect_name(decision.effect), decision.on ? "on" : "off", decision.reason);
-  }
-  if (explanation.shadows) text += text_of(*explanation.shadows);
-  if (explanation.visibility) text += text_of(*explanation.visibility);
-  text += fmt::format("\nforward pass with {}\n  {:<24} {}\n  {:<24} {} lines\n  {:<24} {}\n", explanation.method,
-                      "draws", explanation.draws, "fragment shader", explanation.shader_lines, "shared by all methods",
-                      readable_bytes(explanation.shared_bytes));
-  text += fmt::format("  {:<24} {}\n", "the method's own", readable_bytes(explanation.method_bytes));
-  for (const TextureUse& use : explanation.textures) {
-    text += fmt::format("    {:<19} {}\n", use.name, readable_bytes(use.bytes));
-  }
-  if (!explanation.left_out.empty()) {
-    text += fmt::format("  {:<24} {}\n", "left out", fmt::join(explanation.left_out, ", "));
-  }
-  text += fmt::format("\nmemory of the maps\n  {:<24} {}\n  {:<24} {}\n", "as 32-bit floats",
-                      readable_bytes(explanation.maps.decoded), "stored, at their own depth",
-                      readable_bytes(explanation.maps.stored));
-  if (explanation.costs.empty()) return text;
+  std::ranges::transform(explanation["choices"], std::back_inserter(choices), text_of_choice);
+  std::string text = lines_of("choices (* = selected)", choices) + lines_of("supplied", explanation["supplied"]) +
+                     lines_of("warnings", explanation["warnings"]) + "effects\n";
+  for (const Json& effect : explanation["effects"])
+    text += fmt::format("  {:<24} {:<4} {}\n", effect["effect"].get<std::string>(), effect["on"] == true ? "on" : "off",
+                        effect["reason"].get<std::string>());
+  for (const Json& pass : explanation["passes"]) text += text_of_pass(pass, explanation);
+  for (const Json& use : explanation["textures"])
+    text += fmt::format("    {:<19} {}\n", use["name"].get<std::string>(),
+                        readable_bytes(use["bytes"].get<std::uint64_t>()));
+  if (!explanation["left_out"].empty())
+    text += line_of("left out",
+                    fmt::format("{}", fmt::join(explanation["left_out"].get<std::vector<std::string>>(), ", ")));
+  text += "\nmemory of the maps\n" + bytes_line("as 32-bit floats", explanation["memory"]["decoded_maps"]) +
+          bytes_line("stored, at their own depth", explanation["memory"]["kept_maps"]);
+  if (!explanation.contains("cost")) return text;
   text += fmt::format("\n{:<23} {:>10} {:>12} {:>10}\n", "cost, ms per frame", "with", "without", "adds");
-  for (const EffectCost& cost : explanation.costs) {
-    text += fmt::format("  {:<24} {:>10.3f} {:>12.3f} {:>10.3f}\n", effect_name(cost.effect), cost.with_ms,
-                        cost.without_ms, cost.added_ms);
-  }
+  for (const Json& cost : explanation["cost"])
+    text +=
+        fmt::format("  {:<24} {:>10.3f} {:>12.3f} {:>10.3f}\n", cost["effect"].get<std::string>(),
+                    cost["with_ms"].get<double>(), cost["without_ms"].get<double>(), cost["added_ms"].get<double>());
   return text;
 }
 
-std::string json_of(const Explanation& explanation) {
-  Json json;
-  json["choices"] = Json::array();
-  for (const ModelChoice& choice : explanation.choices) {
-    Json taken;
-    if (choice.taken) taken = *choice.taken;
-    json["choices"].push_back({{"kind", choice.kind}, {"names", choice.names}, {"taken", taken}});
-  }
-  json["supplied"] = explanation.supplied;
-  json["warnings"] = explanation.warnings;
-  for (const EffectDecision& decision : explanation.effects) {
-    json["effects"].push_back(
-        {{"effect", effect_name(decision.effect)}, {"on", decision.on}, {"reason", decision.reason}});
-  }
-  json["method"] = explanation.method;
-  json["left_out"] = explanation.left_out;
-  if (const auto& shadows = explanation.shadows) {
-    json["passes"].push_back({{"name", "shadow_maps"},
-                              {"draws", shadows->draws},
-                              {"maps", shadows->maps},
-                              {"resolution", shadows->resolution},
-                              {"bytes", shadows->bytes},
-                              {"once", true}});
-  }
-  if (const auto& visibility = explanation.visibility) {
-    json["passes"].push_back({{"name", "environment_visibility"},
-                              {"vertices", visibility->vertices},
-                              {"error_radians", visibility->error},
-                              {"bytes", visibility->bytes},
-                              {"once", true}});
-  }
-  json["passes"].push_back(
-      {{"name", "forward"}, {"draws", explanation.draws}, {"shader_lines", explanation.shader_lines}});
-  json["memory"] = {{"decoded_maps", explanation.maps.decoded}, {"kept_maps", explanation.maps.stored}};
-  json["shared_bytes"] = explanation.shared_bytes;
-  json["method_bytes"] = explanation.method_bytes;
-  json["textures"] = Json::array();
-  for (const TextureUse& use : explanation.textures) {
-    json["textures"].push_back({{"name", use.name}, {"bytes", use.bytes}});
-  }
-  for (const EffectCost& cost : explanation.costs) {
-    json["cost"].push_back({{"effect", effect_name(cost.effect)},
-                            {"with_ms", cost.with_ms},
-                            {"without_ms", cost.without_ms},
-                            {"added_ms", cost.added_ms}});
-  }
-  return json.dump(2) + "\n";
-}
-
 void run_explain(const ExplainArguments& arguments) {
-  Explanation explanation;
+  Json explanation;
   {
     ProgressDisplay display(progress_style(arguments.quiet));
     explanation = explain(arguments, display.callback());
   }
-  write_output(arguments.json ? json_of(explanation) : text_of(explanation));
+  write_output(arguments.json ? explanation.dump(2) + "\n" : text_of(explanation));
+}
+
+constexpr const char* cost_examples =
+    R"(Compiles each method's program with Mesa's compiler for AMD GPUs, which needs no GPU, and combines the instructions
+with the loop counts of the frame and the published rates of each chip (docs/explanation/gpu-cost.md).
+
+Examples:
+  footprint cost model.gltf
+  footprint cost carved_disk --methods direct,toksvig,lean,tan_gmm --gpu "Steam Deck,RX 6800"
+  footprint cost carved_disk --methods lean,tan_gmm:n=2,tan_gmm:n=4 --gpu all -o cost)";
+
+struct CostArguments : RunArguments {
+  explicit CostArguments(CLI::App& command) : RunArguments(command) {
+    add_output_folder(command, output, "Folder for cost.json, cost.csv, table.md; default: none");
+    add_quiet_flag(command, quiet);
+  }
+
+  std::string output;  // empty: the table is only printed
+};
+
+void run_cost(const CostArguments& arguments) {
+  const RunSettings settings = arguments.run.settings();
+  ProgressDisplay display(progress_style(arguments.quiet));
+  CostReport report = estimate_costs(settings, amd_compiler(), display.callback());
+  display.finish();
+  sign(report.tool, report.backend);
+  if (!arguments.output.empty()) {
+    const auto path = write_whole(arguments.output, [&](OutputFolder& folder) {
+                        write_cost(report, folder.path());
+                        keep(folder);
+                        return true;
+                      }).second;
+    write_output(fmt::format("{}\ncosts: {}\n", cost_table(report), (path / "cost.json").string()));
+  } else {
+    write_output(cost_table(report));
+  }
 }
 
 }  // namespace
 
 void add_explain_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("explain", "Show which shading effects a scene uses, why, and what they cost");
-  const auto arguments = std::make_shared<ExplainArguments>(*command);
-  command->add_flag("--cost", arguments->cost, "Measure what each effect adds to a frame's time");
-  command->add_flag("--json", arguments->json, "Print JSON");
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(explain_examples);
-  command->callback([arguments] { run_explain(*arguments); });
+  add_command(app, "explain", "Show which shading effects a scene uses, why, and what they cost", explain_examples,
+              run_explain);
+}
+
+void add_cost_command(CLI::App& app) {
+  add_command(app, "cost", "Estimate what methods cost on GPUs, without a GPU", cost_examples, run_cost);
 }
 
 }  // namespace footprint

@@ -13,6 +13,7 @@
 #include "app/folders.hpp"
 #include "app/help.hpp"
 #include "app/messages.hpp"
+#include "app/run_options.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/method_file.hpp"
@@ -29,28 +30,34 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* list_examples =
-    "Examples:\n"
-    "  footprint list                               everything\n"
-    "  footprint list methods                       the methods and their options\n"
-    "  footprint list ./mine.glsl                   a method in a file (docs/guides/method-files.md)\n"
-    "  footprint list scenes --json                 for programs";
+    R"(Examples:
+  footprint list                               everything
+  footprint list methods                       the methods and their options
+  footprint list ./mine.glsl                   a method in a file (docs/guides/method-files.md)
+  footprint list scenes --json                 for programs)";
 
 constexpr const char* info_examples =
-    "Examples:\n"
-    "  footprint info                               backends with their limits, processor, memory\n"
-    "  footprint info | grep egl-device             the GPUs, with their numbers for --device";
+    R"(Examples:
+  footprint info                               backends with their limits, processor, memory
+  footprint info | grep egl-device             the GPUs, with their numbers for --device)";
 
 constexpr const char* completions_examples =
-    "Installed packages bring these already.\n"
-    "\n"
-    "Examples:\n"
-    "  source <(footprint completions bash)\n"
-    "  footprint completions zsh > ~/.zfunc/_footprint\n"
-    "  footprint completions fish > ~/.config/fish/completions/footprint.fish";
+    R"(Installed packages bring these already.
+
+Examples:
+  source <(footprint completions bash)
+  footprint completions zsh > ~/.zfunc/_footprint
+  footprint completions fish > ~/.config/fish/completions/footprint.fish)";
 
 const std::vector<std::string> kinds{"methods", "scenes", "surfaces", "experiments", "backends"};
 
 struct ListArguments {
+  explicit ListArguments(CLI::App& command) {
+    add_value(command, "kind", kind, "KIND",
+              "methods, scenes, surfaces, experiments, backends, or a method's FILE.glsl; default: all");
+    command.add_flag("--json", json, "Print JSON");
+  }
+
   std::string kind;  // empty: all
   bool json = false;
 };
@@ -158,22 +165,30 @@ Json backend_json(const gl::BackendReport& report) {
   return json;
 }
 
-std::vector<std::string> names_of(std::string_view kind) {
-  if (kind == "scenes") return list_scenes(scene_library().folder);
-  if (kind == "experiments") return list_experiments(experiments_folder());
-  std::vector<std::string> names;
-  if (kind == "methods") {
-    for (const Method* method : all_methods()) names.push_back(method->info.name);
-  } else {
-    for (const Surface& surface : all_surfaces()) names.push_back(surface.name);
-  }
-  return names;
-}
-
 std::string backends_text() {
   std::string text = "backends\n";
   for (const gl::BackendReport& report : gl::probe_backends()) text += backend_text(report);
   return text;
+}
+
+Json kind_json(std::string_view kind) {
+  if (kind == "scenes") return list_scenes(scene_library().folder);
+  if (kind == "experiments") return list_experiments(experiments_folder());
+  Json json = Json::array();
+  if (kind == "methods") {
+    for (const Method* method : all_methods()) json.push_back(method_json(method->info));
+  } else if (kind == "surfaces") {
+    for (const Surface& surface : all_surfaces()) json.push_back(surface_json(surface));
+  } else {
+    for (const gl::BackendReport& report : gl::probe_backends()) json.push_back(backend_json(report));
+  }
+  return json;
+}
+
+std::vector<std::string> names_of(std::string_view kind) {
+  std::vector<std::string> names;
+  for (const Json& entry : kind_json(kind)) names.push_back(entry.is_object() ? entry["name"] : entry);
+  return names;
 }
 
 std::string kind_text(const std::string& kind) {
@@ -187,19 +202,6 @@ std::string kind_text(const std::string& kind) {
     for (const std::string& name : names_of(kind)) text += fmt::format("  {}\n", name);
   }
   return text;
-}
-
-Json kind_json(const std::string& kind) {
-  if (kind == "scenes" || kind == "experiments") return names_of(kind);
-  Json json = Json::array();
-  if (kind == "methods") {
-    for (const Method* method : all_methods()) json.push_back(method_json(method->info));
-  } else if (kind == "surfaces") {
-    for (const Surface& surface : all_surfaces()) json.push_back(surface_json(surface));
-  } else {
-    for (const gl::BackendReport& report : gl::probe_backends()) json.push_back(backend_json(report));
-  }
-  return json;
 }
 
 void run_list(const ListArguments& arguments) {
@@ -234,15 +236,7 @@ struct CompletionsArguments {
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "List the methods, scenes, surfaces, experiments and backends");
-  const auto arguments = std::make_shared<ListArguments>();
-  command
-      ->add_option("kind", arguments->kind,
-                   "methods, scenes, surfaces, experiments, backends, or a method's FILE.glsl; default: all")
-      ->type_name("KIND");
-  command->add_flag("--json", arguments->json, "Print JSON");
-  command->footer(list_examples);
-  command->callback([arguments] { run_list(*arguments); });
+  add_command(app, "list", "List the methods, scenes, surfaces, experiments and backends", list_examples, run_list);
 }
 
 void add_info_command(CLI::App& app) {

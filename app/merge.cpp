@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,21 +22,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* merge_words =
-    "Each PART is the output folder of `footprint run EXPERIMENT --shard I/N` or `footprint animate ... --shard I/N`.\n"
-    "All N parts must come from the same experiment and program. The report equals that of a single run; nothing is\n"
-    "measured again. Times name the machine that took them (docs/guides/cluster.md).\n"
-    "\n"
-    "Examples:\n"
-    "  footprint merge parts/1 parts/2 -o out\n"
-    "  footprint merge parts/* -o out";
+    R"(Each PART is the output folder of `footprint run EXPERIMENT --shard I/N` or `footprint animate ... --shard I/N`.
+All N parts must come from the same experiment and program. The report equals that of a single run; nothing is
+measured again. Times name the machine that took them (docs/guides/cluster.md).
 
-struct MergeArguments {
-  explicit MergeArguments(CLI::App& command) : run(command) {}
+Examples:
+  footprint merge parts/1 parts/2 -o out
+  footprint merge parts/* -o out)";
 
-  RunOptions run;
+struct MergeArguments : RunArguments {
+  explicit MergeArguments(CLI::App& command) : RunArguments(command) {
+    command.add_option("part", parts, "Output folders of all parts")->required()->type_name("PART");
+    add_output_folder(command, output, "Folder for results.json, results.csv, table.md, index.html, images/, kept/");
+    add_quiet_flag(command, quiet);
+  }
+
   std::vector<std::string> parts;
   std::string output = "out";
-  bool quiet = false;
 };
 
 struct Part {
@@ -99,8 +100,6 @@ RequestedExperiments requested_by(const Part& first, const RunOptions& options) 
   if (requested.fingerprint != first.file.fingerprint)
     refuse(first, fmt::format("{} has changed since this part was run", requested.file.string()),
            "run all parts again, or restore the file");
-  if (!is_made_by_this_program(first.file.maker))
-    refuse(first, "was made by another program than this one", "merge with the program that ran the parts");
   return requested;
 }
 
@@ -113,8 +112,6 @@ void take_all(const std::vector<Part>& parts, const FinishedWork& finished) {
 }
 
 void merge_animation(const std::vector<Part>& parts, const std::string& output) {
-  if (!is_made_by_this_program(parts.front().file.maker))
-    refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
   const FinishedWork finished(finished_work_folder(output), parts.front().file.maker, true);
   take_all(parts, finished);
   write_and_print_animation(output, [&](const fs::path& folder) {
@@ -124,31 +121,19 @@ void merge_animation(const std::vector<Part>& parts, const std::string& output) 
 
 void merge(const MergeArguments& arguments) {
   const std::vector<Part> parts = parts_of(arguments.parts);
+  if (!is_made_by_this_program(parts.front().file.maker))
+    refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
   if (parts.front().file.kind == PartKind::animation) return merge_animation(parts, arguments.output);
   const RequestedExperiments requested = requested_by(parts.front(), arguments.run);
   const FinishedWork finished(finished_work_folder(arguments.output), parts.front().file.maker, true);
   take_all(parts, finished);
-  std::optional<Error> failed;
-  run_and_print(requested, arguments.output, finished, arguments.quiet, {.experiment = [&](const Results& results) {
-                  if (!failed) failed = row_failures(results);
-                }});
-  if (failed) throw *failed;
+  if (const auto failed = run_and_print(requested, arguments.output, finished, arguments.quiet, {})) throw *failed;
 }
 
 }  // namespace
 
 void add_merge_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("merge", "Join the parts of a run made with --shard into one report");
-  const auto arguments = std::make_shared<MergeArguments>(*command);
-  command->add_option("part", arguments->parts, "Output folders of all parts")->required()->type_name("PART");
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "Folder for results.json, results.csv, table.md, index.html, images/, kept/")
-      ->type_name("DIR")
-      ->capture_default_str();
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(merge_words);
-  command->callback([arguments] { merge(*arguments); });
+  add_command(app, "merge", "Join the parts of a run made with --shard into one report", merge_words, merge);
 }
 
 }  // namespace footprint

@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -22,20 +21,37 @@ namespace footprint {
 namespace {
 
 constexpr const char* ndf_examples =
-    "MAP is an EXR of unit normals (x, y, z, each -1 to 1) or a normal map as an image (OpenGL convention), or "
-    "heights\n"
-    "with --height-scale. Texture coordinates start with (0, 0) at the top left.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint ndf normals.png -o ndf\n"
-    "  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --region 0,0,0.25,0.25 -o ndf\n"
-    "  footprint ndf heights.png --height-scale 0.02 -o ndf\n"
-    "  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf";
+    R"(MAP is an EXR of unit normals (x, y, z, each -1 to 1) or a normal map as an image (OpenGL convention), or heights
+with --height-scale. Texture coordinates start with (0, 0) at the top left.
 
-struct NdfArguments {
-  explicit NdfArguments(CLI::App& command) : run(command) {}
+Examples:
+  footprint ndf normals.png -o ndf
+  footprint ndf normals.exr --lobe ggx:0.1 --methods toksvig,naive_mip --region 0,0,0.25,0.25 -o ndf
+  footprint ndf heights.png --height-scale 0.02 -o ndf
+  footprint ndf model.gltf --material 2 --texels 256,128,320,192 -o ndf)";
 
-  RunOptions run;
+struct NdfArguments : RunArguments {
+  explicit NdfArguments(CLI::App& command) : RunArguments(command) {
+    add_value(command, "source", source, "SCENE|MAP", "Scene, model or normal map")->required();
+    map.add_to(command);
+    auto* region = add_value(command, "--region", footprint, "U0,V0,U1,V1",
+                             "Footprint in texture coordinates; default: the whole map");
+    add_value(command, "--texels", texels, "X0,Y0,X1,Y1", "Footprint in texels of the normal map")->excludes(region);
+    add_value(command, "--lobe", lobe, "LOBE",
+              "blinn_phong:EXPONENT, beckmann:ALPHA, ggx:ALPHA or vmf:KAPPA; default: the scene's, or "
+              "blinn_phong:64 for a map");
+    add_value(command, "--material", material, "NAME", "Material of the scene, by name or number from 0");
+    command
+        .add_option("--resolution", resolution,
+                    "Rings of directions on the hemisphere; default: as the narrowest lobe needs")
+        ->check(CLI::Range(smallest_resolution, largest_resolution));
+    command.add_option("--picture-size", picture_size, "Side of the images in pixels")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    add_output_folder(command, output, "Folder for index.html, ndf.json, ndf.png, images/")->required();
+    add_quiet_flag(command, quiet);
+  }
+
   std::string source;
   MapOptions map;
   std::string material;
@@ -44,7 +60,6 @@ struct NdfArguments {
   int resolution = NdfSettings{}.resolution;
   int picture_size = NdfSettings{}.picture;
   std::string output;
-  bool quiet = false;
 };
 
 FootprintRect parse_rectangle(const std::string& option, const std::string& text) {
@@ -96,7 +111,7 @@ void run_ndf(const NdfArguments& arguments) {
   const auto [results, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
     std::filesystem::create_directories(folder.path() / "images");
     NdfResults measured = inspect_ndf(source, settings, folder.path(), display.callback());
-    measured.version = FOOTPRINT_VERSION;
+    measured.tool.version = FOOTPRINT_VERSION;
     write_file_atomically(folder.path() / "ndf.json", ndf_json(measured));
     write_file_atomically(folder.path() / "index.html", ndf_page(measured));
     keep(folder);
@@ -104,48 +119,19 @@ void run_ndf(const NdfArguments& arguments) {
   });
   display.finish();
   for (const std::string& note : results.notes) write_message(note);
-  if (!results.fine_enough) {
+  if (!results.grid.fine_enough) {
     write_message(fmt::format(
         "the grid of directions is too coarse for {}: the exact NDF integrates to {:.4g} instead of {:.4g}; "
         "give a larger --resolution",
-        results.lobe, results.exact.energy, results.exact.expected_energy));
+        results.lobe.narrowest, results.truth.energy, results.truth.expected_energy));
   }
-  write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (path / results.strip).string()));
+  write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (path / results.pictures.strip).string()));
 }
 
 }  // namespace
 
 void add_ndf_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("ndf", "Show each method's NDF of one footprint next to the exact one");
-  const auto arguments = std::make_shared<NdfArguments>(*command);
-  command->add_option("source", arguments->source, "Scene, model or normal map")->type_name("SCENE|MAP")->required();
-  arguments->map.add_to(*command);
-  auto* footprint =
-      command->add_option("--region", arguments->footprint, "Footprint in texture coordinates; default: the whole map")
-          ->type_name("U0,V0,U1,V1");
-  command->add_option("--texels", arguments->texels, "Footprint in texels of the normal map")
-      ->type_name("X0,Y0,X1,Y1")
-      ->excludes(footprint);
-  command
-      ->add_option("--lobe", arguments->lobe,
-                   "blinn_phong:EXPONENT, beckmann:ALPHA, ggx:ALPHA or vmf:KAPPA; default: the scene's, or "
-                   "blinn_phong:64 for a map")
-      ->type_name("LOBE");
-  command->add_option("--material", arguments->material, "Material of the scene, by name or number from 0")
-      ->type_name("NAME");
-  command
-      ->add_option("--resolution", arguments->resolution,
-                   "Rings of directions on the hemisphere; default: as the narrowest lobe needs")
-      ->check(CLI::Range(smallest_resolution, largest_resolution));
-  command->add_option("--picture-size", arguments->picture_size, "Side of the images in pixels")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Folder for index.html, ndf.json, ndf.png, images/")
-      ->type_name("DIR")
-      ->required();
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(ndf_examples);
-  command->callback([arguments] { run_ndf(*arguments); });
+  add_command(app, "ndf", "Show each method's NDF of one footprint next to the exact one", ndf_examples, run_ndf);
 }
 
 }  // namespace footprint

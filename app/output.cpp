@@ -66,4 +66,13 @@ std::optional<Error> row_failures(const Results& results) {
                            *failure_of(*first)));
 }
 
+void require_none_failed(const std::string& place, const char* checks, const std::vector<std::string>& failures) {
+  std::string list;
+  for (const std::string& failure : failures) list += "failed: " + failure + "\n";
+  write_output(list);
+  if (failures.empty()) return;
+  throw Error(ErrorKind::check, place,
+              fmt::format("{} {} failed, the first: {}", failures.size(), checks, failures.front().substr(0, 300)), "");
+}
+
 }  // namespace footprint

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
@@ -37,6 +38,9 @@ void write_and_print_animation(const std::filesystem::path& output,
 /// The error (check) for a run in which rows failed or lack an estimate for a GPU, to be thrown once everything else is
 /// written; none if all passed.
 [[nodiscard]] std::optional<Error> row_failures(const Results& results);
+
+/// Prints a line per failure of a check. Errors (check): there is one; `checks` says what failed.
+void require_none_failed(const std::string& place, const char* checks, const std::vector<std::string>& failures);
 
 /// The result of `write`, which fills and commits the folder, and the folder's place. Removes a folder that was not
 /// committed.

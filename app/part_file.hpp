@@ -27,14 +27,14 @@ struct PartFile {
   PartKind kind = PartKind::experiment;
   std::string experiment;   ///< its file, absolute; of an animation its scene
   std::string fingerprint;  ///< of the request (RequestedExperiments); of an animation the key of its head
-  std::string maker;        ///< program and renderer (maker_of_work)
-  Shard shard;
-  std::string only;  ///< as the command line had it
+  std::string maker = {};   ///< program and renderer (maker_of_work)
+  Shard shard = {};
+  std::string only = {};  ///< as the command line had it
   bool quick = false;
   int processes = 1, tile = 0;
-  std::string node;               ///< that ran it
-  double seconds = 0;             ///< that it took, of the run that finished it
-  std::vector<std::string> keys;  ///< of its finished work
+  std::string node = {};               ///< that ran it
+  double seconds = 0;                  ///< that it took, of the run that finished it
+  std::vector<std::string> keys = {};  ///< of its finished work
 };
 
 /// Writes FOLDER/part.json whole. Errors (machine): cannot be written.

@@ -29,17 +29,17 @@ constexpr const char* program_description =
     "memory of each, on your own glTF model, without a display.";
 
 constexpr const char* program_examples =
-    "Examples:\n"
-    "  footprint compare model.gltf -o out          error, cost and memory of each method, images and a page\n"
-    "  footprint render model.gltf --method toksvig -o out.exr\n"
-    "  footprint check quick -o out                 run an experiment, check its claims and thresholds\n"
-    "  footprint recommend model.gltf -o advice     which method to use for each material\n"
-    "  footprint bake model.gltf --method lean -o maps\n"
-    "  footprint score engine.exr --reference reference.exr    an image of another renderer\n"
-    "  footprint list methods                       the methods and their options\n"
-    "\n"
-    "Exit codes: 0 success, 1 a check failed, 2 bad command line or input, 3 not possible on this machine,\n"
-    "130 interrupted.";
+    R"(Examples:
+  footprint compare model.gltf -o out          error, cost and memory of each method, images and a page
+  footprint render model.gltf --method toksvig -o out.exr
+  footprint check quick -o out                 run an experiment, check its claims and thresholds
+  footprint recommend model.gltf -o advice     which method to use for each material
+  footprint bake model.gltf --method lean -o maps
+  footprint score engine.exr --reference reference.exr    an image of another renderer
+  footprint list methods                       the methods and their options
+
+Exit codes: 0 success, 1 a check failed, 2 bad command line or input, 3 not possible on this machine,
+130 interrupted.)";
 
 // Adds the subcommands, grouped by purpose.
 void add_subcommands(CLI::App& app) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -29,22 +28,50 @@ namespace footprint {
 namespace {
 
 constexpr const char* recommend_examples =
-    "Every method is measured under every footprint filter: coarsely first, then the contenders in full. Costs are\n"
-    "frame times relative to `direct` under trilinear lookups. At most one limit can be given; without\n"
-    "one, the smallest error wins.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint recommend model.gltf -o advice\n"
-    "  footprint recommend model.gltf --max-error 0.05 --distance 1,2,4,8 -o advice\n"
-    "  footprint recommend model.gltf --max-cost 2 --footprints trilinear,anisotropic:8 -o advice\n"
-    "  footprint recommend model.gltf --max-cost '2@Steam Deck' -o advice\n"
-    "  footprint recommend model.gltf --max-bytes 4000000 --methods direct,toksvig:storage=unorm8,lean:storage=fp16\n"
-    "  footprint recommend model.gltf --quick --max-cost '2@Steam Deck'";
+    R"(Every method is measured under every footprint filter: coarsely first, then the contenders in full. Costs are
+frame times relative to `direct` under trilinear lookups. At most one limit can be given; without
+one, the smallest error wins.
 
-struct RecommendArguments {
-  explicit RecommendArguments(CLI::App& command) : run(command) {}
+Examples:
+  footprint recommend model.gltf -o advice
+  footprint recommend model.gltf --max-error 0.05 --distance 1,2,4,8 -o advice
+  footprint recommend model.gltf --max-cost 2 --footprints trilinear,anisotropic:8 -o advice
+  footprint recommend model.gltf --max-cost '2@Steam Deck' -o advice
+  footprint recommend model.gltf --max-bytes 4000000 --methods direct,toksvig:storage=unorm8,lean:storage=fp16
+  footprint recommend model.gltf --quick --max-cost '2@Steam Deck')";
 
-  RunOptions run;
+struct RecommendArguments : RunArguments {
+  explicit RecommendArguments(CLI::App& command) : RunArguments(command) {
+    auto* error = command.add_option("--max-error", limits.max_error,
+                                     "Choose the cheapest with at most this error at every distance");
+    auto* cost = add_value(command, "--max-cost", max_cost, "R[@GPU]",
+                           "Choose the most accurate with at most this cost relative to direct: of frame times, or "
+                           "with @GPU as `footprint cost` estimates it");
+    auto* bytes = add_value(command, "--max-bytes", limits.max_bytes, "N",
+                            "Choose the most accurate with at most this many bytes of maps per material")
+                      ->check(within(0.0, 1e18));
+    error->excludes(cost)->excludes(bytes);
+    cost->excludes(bytes);
+    add_value(command, "--footprints", filters, "LIST",
+              "Footprint filters to try, comma-separated, as for `compare --footprint`; trilinear is always included")
+        ->capture_default_str();
+    auto* in_full = command.add_flag("--exhaustive", exhaustive, "Measure every candidate in full");
+    auto* quick =
+        command.add_flag("--quick", predicted,
+                         "Predict errors within a second from the statistics of each normal map: nothing is drawn "
+                         "or written, and options of view, reference and timing have no effect");
+    quick->excludes(in_full);
+    command.add_flag("--json", json, "With --quick: JSON instead of text, for programs")->needs(quick);
+    auto* folder = add_output_folder(
+        command, output,
+        "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
+        "interrupted run resumes");
+    auto* again =
+        command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
+    quick->excludes(folder)->excludes(again);
+    add_quiet_flag(command, quiet);
+  }
+
   std::string filters = "trilinear,anisotropic:8,shaded:2";
   Limits limits;
   std::string max_cost;  // R or R@GPU
@@ -53,7 +80,6 @@ struct RecommendArguments {
   bool json = false;
   bool fresh = false;
   std::string output = "out";
-  bool quiet = false;
 };
 
 // Trilinear is always among them: costs are relative to `direct` with it.
@@ -118,8 +144,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
   set_max_cost(arguments.max_cost, settings);
   if (arguments.predicted) return run_quick_command(arguments, settings);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const FinishedWork finished(finished_work_folder(arguments.output), maker_for(settings.run));
-  if (arguments.fresh) finished.clear();
+  const FinishedWork finished = finished_work_of(settings.run, arguments.output, arguments.fresh);
   const auto [result, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{
         .results =
@@ -149,50 +174,8 @@ void run_recommend_command(const RecommendArguments& arguments) {
 }  // namespace
 
 void add_recommend_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("recommend", "Choose the best method for each material, within a limit");
-  const auto arguments = std::make_shared<RecommendArguments>(*command);
-  auto* error = command->add_option("--max-error", arguments->limits.max_error,
-                                    "Choose the cheapest with at most this error at every distance");
-  auto* cost =
-      command
-          ->add_option("--max-cost", arguments->max_cost,
-                       "Choose the most accurate with at most this cost relative to direct: of frame times, or "
-                       "with @GPU as `footprint cost` estimates it")
-          ->type_name("R[@GPU]");
-  auto* bytes = command
-                    ->add_option("--max-bytes", arguments->limits.max_bytes,
-                                 "Choose the most accurate with at most this many bytes of maps per material")
-                    ->type_name("N")
-                    ->check(within(0.0, 1e18));
-  error->excludes(cost)->excludes(bytes);
-  cost->excludes(bytes);
-  command
-      ->add_option(
-          "--footprints", arguments->filters,
-          "Footprint filters to try, comma-separated, as for `compare --footprint`; trilinear is always included")
-      ->type_name("LIST")
-      ->capture_default_str();
-  auto* exhaustive = command->add_flag("--exhaustive", arguments->exhaustive, "Measure every candidate in full");
-  auto* quick =
-      command->add_flag("--quick", arguments->predicted,
-                        "Predict errors within a second from the statistics of each normal map: nothing is drawn "
-                        "or written, and options of view, reference and timing have no effect");
-  quick->excludes(exhaustive);
-  command->add_flag("--json", arguments->json, "With --quick: JSON instead of text, for programs")->needs(quick);
-  auto* output =
-      command
-          ->add_option(
-              "-o,--output", arguments->output,
-              "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
-              "interrupted run resumes")
-          ->type_name("DIR")
-          ->capture_default_str();
-  auto* fresh = command->add_flag("--fresh", arguments->fresh,
-                                  "Measure everything again: discard the finished work in the output folder");
-  quick->excludes(output)->excludes(fresh);
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(recommend_examples);
-  command->callback([arguments] { run_recommend_command(*arguments); });
+  add_command(app, "recommend", "Choose the best method for each material, within a limit", recommend_examples,
+              run_recommend_command);
 }
 
 }  // namespace footprint

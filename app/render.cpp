@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,22 +22,26 @@ namespace footprint {
 namespace {
 
 constexpr const char* render_examples =
-    "EXR stores linear radiance with coverage in alpha; PNG stores the image as displayed, after exposure.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint render model.gltf --method toksvig --size 1024x768 -o toksvig.exr\n"
-    "  footprint render model.gltf --method reference --spp 256 --seed 7 -o reference.exr\n"
-    "  footprint render model.gltf --method toksvig:storage=fp16 --distance 4 -o far.png";
+    R"(EXR stores linear radiance with coverage in alpha; PNG stores the image as displayed, after exposure.
+
+Examples:
+  footprint render model.gltf --method toksvig --size 1024x768 -o toksvig.exr
+  footprint render model.gltf --method reference --spp 256 --seed 7 -o reference.exr
+  footprint render model.gltf --method toksvig:storage=fp16 --distance 4 -o far.png)";
 
 constexpr int reference_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
-struct RenderArguments {
-  explicit RenderArguments(CLI::App& command) : run(command) {}
+struct RenderArguments : RunArguments {
+  explicit RenderArguments(CLI::App& command) : RunArguments(command) {
+    add_value(command, "-o,--output", output, "FILE", "The image, .exr or .png")->required();
+    add_value(command, "--frame", zoom_frame, "N", "Frame of the scene's zoom path, from 0")
+        ->check(within(0.0, 1e6))
+        ->excludes(command.get_option("--distance"));
+    add_quiet_flag(command, quiet);
+  }
 
-  RunOptions run;
   std::optional<std::size_t> zoom_frame;
   std::string output;
-  bool quiet = false;
 };
 
 // The factor on the camera's distance: as given, or of a frame of the scene's zoom path.
@@ -101,16 +104,7 @@ void run_render(const RenderArguments& arguments) {
 }  // namespace
 
 void add_render_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("render", "Render one image by a method or by the reference");
-  const auto arguments = std::make_shared<RenderArguments>(*command);
-  command->add_option("-o,--output", arguments->output, "The image, .exr or .png")->type_name("FILE")->required();
-  command->add_option("--frame", arguments->zoom_frame, "Frame of the scene's zoom path, from 0")
-      ->type_name("N")
-      ->check(within(0.0, 1e6))
-      ->excludes(command->get_option("--distance"));
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(render_examples);
-  command->callback([arguments] { run_render(*arguments); });
+  add_command(app, "render", "Render one image by a method or by the reference", render_examples, run_render);
 }
 
 }  // namespace footprint

@@ -2,9 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <memory>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -25,37 +26,37 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/process.hpp"
-#include "results/report/check_outcomes.hpp"
+#include "results/report/experiment_report.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr const char* experiment_words =
-    "EXPERIMENT is a name of `footprint list experiments`, or a path to a TOML file or a folder of them\n"
-    "(docs/reference/experiments.md).\n"
-    "\n";
+    R"(EXPERIMENT is a name of `footprint list experiments`, or a path to a TOML file or a folder of them
+(docs/reference/experiments.md).
+
+)";
 
 constexpr const char* run_examples =
-    "Examples:\n"
-    "  footprint run tan2005_fig4 -o out            figures next to the published ones, claims\n"
-    "  footprint run tan2005_fig4 --quick -o out    a quarter of the size: a test run\n"
-    "  footprint run xu2017_table1 --processes 5 -o out    times from five processes\n"
-    "  footprint run engine_constants --only ggx -o out    its members whose names match\n"
-    "  footprint run --all -o results                      every experiment; an interrupted run resumes\n"
-    "  footprint run cells --shard 1/4 -o parts/1          one of four parts, for `footprint merge`\n"
-    "  footprint run mine.toml -o out";
+    R"(Examples:
+  footprint run tan2005_fig4 -o out            figures next to the published ones, claims
+  footprint run tan2005_fig4 --quick -o out    a quarter of the size: a test run
+  footprint run xu2017_table1 --processes 5 -o out    times from five processes
+  footprint run engine_constants --only ggx -o out    its members whose names match
+  footprint run --all -o results                      every experiment; an interrupted run resumes
+  footprint run cells --shard 1/4 -o parts/1          one of four parts, for `footprint merge`
+  footprint run mine.toml -o out)";
 
 constexpr const char* check_examples =
-    "Exit code 1, with a list, if a claim's outcome differs from the expected one or a threshold is exceeded. The\n"
-    "report is still written.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint check quick -o out                 every method, in seconds\n"
-    "  footprint check hard_cases -o out            numerical stress tests (docs/results/stability.md)\n"
-    "  footprint check experiments/tan2005_fig4.toml -o out\n"
-    "  footprint check quick -o out --junit out/junit.xml --github\n"
-    "  footprint check quick -o out --baseline quick.json --update-baseline    first run; later without "
-    "--update-baseline";
+    R"(Exit code 1, with a list, if a claim's outcome differs from the expected one or a threshold is exceeded. The
+report is still written.
+
+Examples:
+  footprint check quick -o out                 every method, in seconds
+  footprint check hard_cases -o out            numerical stress tests (docs/results/stability.md)
+  footprint check experiments/tan2005_fig4.toml -o out
+  footprint check quick -o out --junit out/junit.xml --github
+  footprint check quick -o out --baseline quick.json --update-baseline    first run; later without --update-baseline)";
 
 // The reports of `check` besides the exit code.
 struct CheckReports {
@@ -65,10 +66,35 @@ struct CheckReports {
   bool update = false;   ///< write it instead
 };
 
-struct ExperimentArguments {
-  explicit ExperimentArguments(CLI::App& command) : run(command) {}
+// Those of `run` and of `check`.
+struct ExperimentArguments : RunArguments {
+  explicit ExperimentArguments(CLI::App& command) : RunArguments(command) {
+    auto* named = add_value(command, "experiment", experiment, "EXPERIMENT", "Name, or path to a TOML file or folder");
+    command.add_flag("--all", all, "Run every experiment, each into a subfolder with its name")->excludes(named);
+    add_output_folder(
+        command, output,
+        "Folder for results.json, results.csv, table.md, index.html, images/, and kept/ with the finished "
+        "work, from which an interrupted run resumes");
+    add_value(command, "--only", only, "REGEX",
+              "Run only members or experiments whose names match this regular expression");
+    command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
+    command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
+    command.add_option(timing_member_option, timing_member)->group("");
+    add_quiet_flag(command, quiet);
+    if (command.get_name() == "check") {
+      command.add_flag("--wide", wide, "hard_cases: every storage in every case, and slow cases too");
+      add_value(command, "--junit", reports.junit, "FILE", "Also write every claim and threshold as JUnit XML");
+      command.add_flag("--github", reports.github, "Also print failures as annotations for GitHub workflows");
+      add_value(command, "--baseline", reports.baseline, "FILE",
+                "Also compare errors, flicker and memory with this file of an earlier run");
+      command.add_flag("--update-baseline", reports.update,
+                       "Write the --baseline file instead of comparing with it, and print the differences");
+    } else {
+      command.add_flag("--quick", quick, "Test run: a quarter of the size, few samples and texels; not a measurement");
+      add_value(command, "--shard", shard, "I/N", "Run part I of N into the output folder, for `footprint merge`");
+    }
+  }
 
-  RunOptions run;
   std::string experiment;
   std::string output = "out";
   std::string only;
@@ -80,31 +106,7 @@ struct ExperimentArguments {
   bool wide = false;          // hard_cases: every storage in every case, and those that take long
   std::string timing_file;    // not empty: this is a process that only takes times
   std::string timing_member;  // and of this experiment alone
-  bool quiet = false;
 };
-
-void add_options(CLI::App& command, ExperimentArguments& arguments) {
-  CLI::Option* const named =
-      command.add_option("experiment", arguments.experiment, "Name, or path to a TOML file or folder")
-          ->type_name("EXPERIMENT");
-  command.add_flag("--all", arguments.all, "Run every experiment, each into a subfolder with its name")
-      ->excludes(named);
-  command
-      .add_option(
-          "-o,--output", arguments.output,
-          "Folder for results.json, results.csv, table.md, index.html, images/, and kept/ with the finished work, "
-          "from which an interrupted run resumes")
-      ->type_name("DIR")
-      ->capture_default_str();
-  command
-      .add_option("--only", arguments.only, "Run only members or experiments whose names match this regular expression")
-      ->type_name("REGEX");
-  command.add_flag("--fresh", arguments.fresh,
-                   "Measure everything again: discard the finished work in the output folder");
-  command.add_option(timing_file_option, arguments.timing_file)->group("");  // no part of the help
-  command.add_option(timing_member_option, arguments.timing_member)->group("");
-  add_quiet_flag(command, arguments.quiet);
-}
 
 RequestedExperiments requested(const ExperimentArguments& arguments) {
   if (arguments.experiment.empty() && !arguments.all)
@@ -125,54 +127,36 @@ void take_times(const ExperimentArguments& arguments) {
               "it is for processes that this program starts itself");
 }
 
-FinishedWork finished_work(const RequestedExperiments& requested, const ExperimentArguments& arguments) {
-  FinishedWork finished(finished_work_folder(arguments.output), maker_for(requested.experiments.front().run));
-  if (arguments.fresh) finished.clear();
-  return finished;
-}
-
 // Runs the experiment, or each of its members into a folder of its own, and prints the tables.
-void run_all(const ExperimentArguments& arguments, const RunListener& listener) {
+std::optional<Error> run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const RequestedExperiments experiments = requested(arguments);
-  const FinishedWork finished = finished_work(experiments, arguments);
-  run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
+  const FinishedWork finished =
+      finished_work_of(experiments.experiments.front().run, arguments.output, arguments.fresh);
+  std::optional<Error> failed = run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
   if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
+  return failed;
 }
 
-// Runs one part; `part.json` says that it is whole, and is there only then.
 void run_shard(const ExperimentArguments& arguments) {
-  const auto begin = std::chrono::steady_clock::now();
   const Shard shard = parse_shard(arguments.shard);
   const RequestedExperiments experiments = requested(arguments);
-  const std::filesystem::path output = arguments.output;
-  const FinishedWork finished = finished_work(experiments, arguments);
-  std::error_code none;
-  std::filesystem::remove(output / "part.json", none);
-  run_part(experiments, shard, output, finished, arguments.quiet);
   const RunSettings& run = experiments.experiments.front().run;
-  std::filesystem::create_directories(output);
-  write_part_file(output, {.experiment = std::filesystem::absolute(experiments.file).lexically_normal().string(),
-                           .fingerprint = experiments.fingerprint,
-                           .maker = finished.maker(),
-                           .shard = shard,
-                           .only = arguments.only,
-                           .quick = arguments.quick,
-                           .processes = run.timing.processes,
-                           .tile = run.backend.tile,
-                           .node = host_name(),
-                           .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                           .keys = finished.used()});
-  write_output(fmt::format("part {} of {}: {}\n", shard.index, shard.count, output.string()));
+  const FinishedWork finished = finished_work_of(run, arguments.output, arguments.fresh);
+  make_part(shard, arguments.output, finished, [&]() -> PartFile {
+    run_part(experiments, shard, arguments.output, finished, arguments.quiet);
+    return {.experiment = std::filesystem::absolute(experiments.file).lexically_normal().string(),
+            .fingerprint = experiments.fingerprint,
+            .only = arguments.only,
+            .quick = arguments.quick,
+            .processes = run.timing.processes,
+            .tile = run.backend.tile};
+  });
 }
 
 void run(const ExperimentArguments& arguments) {
   if (!arguments.timing_file.empty()) return take_times(arguments);
   if (!arguments.shard.empty()) return run_shard(arguments);
-  std::optional<Error> failed;
-  run_all(arguments, {.experiment = [&](const Results& results) {
-            if (!failed) failed = row_failures(results);
-          }});
-  if (failed) throw *failed;
+  if (const auto failed = run_all(arguments, {})) throw *failed;
 }
 
 constexpr std::uint64_t largest_baseline = 1U << 26U;  // bytes
@@ -196,73 +180,59 @@ std::optional<Baseline> baseline_of(const CheckReports& reports) {
 class CheckReporter {
  public:
   // Reads the baseline. Errors (usage): it is missing or not a baseline; it is to be updated and not named.
-  explicit CheckReporter(CheckReports reports);
+  explicit CheckReporter(const CheckReports& reports) : reports_(reports), baseline_(baseline_of(reports)) {}
 
   // The outcomes of one run, or of a matrix.
-  void add(const Results& results);
-  void add(const ExperimentReport& report);
+  void add(const ExperimentReport& report) {
+    ++runs_;
+    std::ranges::move(check_outcomes(report), std::back_inserter(outcomes_));
+  }
+  void add(const Results& results) {
+    add(results.experiment.value());
+    const BaselineFigures figures = baseline_figures(results);
+    if (baseline_ && !reports_.update)
+      std::ranges::move(compare_with_baseline(*baseline_, figures, reports_.baseline), std::back_inserter(outcomes_));
+    figures_.insert(figures.begin(), figures.end());
+  }
 
   // Writes and prints the reports, and a baseline that is updated with its differences. Errors (machine): a file cannot
   // be written.
-  void report() const;
+  void report() const {
+    if (!reports_.junit.empty()) write_file_atomically(reports_.junit, junit_xml(outcomes_));
+    if (reports_.update) update_baseline();
+    if (reports_.github) write_output(github_annotations(outcomes_));
+  }
 
   // One line per failure, with its experiment if there are several.
-  [[nodiscard]] std::vector<std::string> shortfalls() const;
+  [[nodiscard]] std::vector<std::string> shortfalls() const {
+    std::vector<std::string> lines;
+    for (const CheckOutcome& outcome : outcomes_) {
+      if (outcome.failure.empty()) continue;
+      lines.push_back(fmt::format("{}{}: {}", runs_ > 1 ? outcome.suite + ": " : "", outcome.name, outcome.failure));
+    }
+    return lines;
+  }
 
  private:
-  void update_baseline() const;
+  // Experiments that were not run stay as they are.
+  void update_baseline() const {
+    Baseline next = baseline_.value_or(Baseline{});
+    std::string text;
+    for (const CheckOutcome& outcome : compare_with_baseline(next, figures_, reports_.baseline)) {
+      if (!outcome.failure.empty())
+        text += fmt::format("{}: {}: {}: {}\n", reports_.baseline, outcome.suite, outcome.name, outcome.failure);
+    }
+    for (const auto& [experiment, records] : figures_) next.figures[experiment] = records;
+    write_file_atomically(reports_.baseline, baseline_json(next));
+    write_output(text.empty() ? fmt::format("{}: no differences\n", reports_.baseline) : text);
+  }
 
-  CheckReports reports_;
+  const CheckReports& reports_;
   std::optional<Baseline> baseline_;
   BaselineFigures figures_;
   std::vector<CheckOutcome> outcomes_;
   std::size_t runs_ = 0;
 };
-
-CheckReporter::CheckReporter(CheckReports reports) : reports_(std::move(reports)), baseline_(baseline_of(reports_)) {}
-
-void CheckReporter::add(const ExperimentReport& report) {
-  ++runs_;
-  for (CheckOutcome& outcome : check_outcomes(report)) outcomes_.push_back(std::move(outcome));
-}
-
-void CheckReporter::add(const Results& results) {
-  add(results.experiment.value());
-  const BaselineFigures figures = baseline_figures(results);
-  if (baseline_ && !reports_.update) {
-    for (CheckOutcome& outcome : compare_with_baseline(*baseline_, figures, reports_.baseline))
-      outcomes_.push_back(std::move(outcome));
-  }
-  figures_.insert(figures.begin(), figures.end());
-}
-
-void CheckReporter::report() const {
-  if (!reports_.junit.empty()) write_file_atomically(reports_.junit, junit_xml(outcomes_));
-  if (reports_.update) update_baseline();
-  if (reports_.github) write_output(github_annotations(outcomes_));
-}
-
-// Experiments that were not run stay as they are.
-void CheckReporter::update_baseline() const {
-  Baseline next = baseline_.value_or(Baseline{});
-  std::string text;
-  for (const CheckOutcome& outcome : compare_with_baseline(next, figures_, reports_.baseline)) {
-    if (!outcome.failure.empty())
-      text += fmt::format("{}: {}: {}: {}\n", reports_.baseline, outcome.suite, outcome.name, outcome.failure);
-  }
-  for (const auto& [experiment, records] : figures_) next.figures[experiment] = records;
-  write_file_atomically(reports_.baseline, baseline_json(next));
-  write_output(text.empty() ? fmt::format("{}: no differences\n", reports_.baseline) : text);
-}
-
-std::vector<std::string> CheckReporter::shortfalls() const {
-  std::vector<std::string> lines;
-  for (const CheckOutcome& outcome : outcomes_) {
-    if (outcome.failure.empty()) continue;
-    lines.push_back(fmt::format("{}{}: {}", runs_ > 1 ? outcome.suite + ": " : "", outcome.name, outcome.failure));
-  }
-  return lines;
-}
 
 // Errors (usage): a report is requested that only experiments have.
 void refuse_reports(const CheckReports& reports) {
@@ -288,55 +258,23 @@ void check(const ExperimentArguments& arguments) {
                 "leave it out: an experiment names its own");
   if (!arguments.timing_file.empty()) return take_times(arguments);
   CheckReporter reporter(arguments.reports);
-  std::optional<Error> failed;
-  const auto add = [&](const Results& results) {
-    reporter.add(results);
-    if (!failed) failed = row_failures(results);
-  };
-  run_all(arguments, {.experiment = add, .matrix = [&](const ExperimentReport& report) { reporter.add(report); }});
+  const auto failed = run_all(arguments, {.experiment = [&](const Results& results) { reporter.add(results); },
+                                          .matrix = [&](const ExperimentReport& report) { reporter.add(report); }});
   reporter.report();
-  const std::vector<std::string> shortfalls = reporter.shortfalls();
-  if (shortfalls.empty() && failed) throw *failed;
-  if (shortfalls.empty()) return;
-  std::string list;
-  for (const std::string& line : shortfalls) list += "failed: " + line + "\n";
-  write_output(list);
-  throw Error(ErrorKind::check, arguments.experiment,
-              fmt::format("{} claims and thresholds failed, the first: {}", shortfalls.size(),
-                          shortfalls.front().substr(0, 300)),
-              "");
+  require_none_failed(arguments.experiment, "claims and thresholds", reporter.shortfalls());
+  if (failed) throw *failed;
 }
 
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("run", "Run an experiment and compare it with published results");
-  const auto arguments = std::make_shared<ExperimentArguments>(*command);
-  add_options(*command, *arguments);
-  command->add_flag("--quick", arguments->quick,
-                    "Test run: a quarter of the size, few samples and texels; not a measurement");
-  command->footer(std::string(experiment_words) + run_examples);
-  command->add_option("--shard", arguments->shard, "Run part I of N into the output folder, for `footprint merge`")
-      ->type_name("I/N");
-  command->callback([arguments] { run(*arguments); });
+  add_command(app, "run", "Run an experiment and compare it with published results",
+              std::string(experiment_words) + run_examples, run);
 }
 
 void add_check_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("check", "Run an experiment; fail if a claim or threshold fails (CI)");
-  const auto arguments = std::make_shared<ExperimentArguments>(*command);
-  add_options(*command, *arguments);
-  command->add_flag("--wide", arguments->wide, "hard_cases: every storage in every case, and slow cases too");
-  command->add_option("--junit", arguments->reports.junit, "Also write every claim and threshold as JUnit XML")
-      ->type_name("FILE");
-  command->add_flag("--github", arguments->reports.github, "Also print failures as annotations for GitHub workflows");
-  command
-      ->add_option("--baseline", arguments->reports.baseline,
-                   "Also compare errors, flicker and memory with this file of an earlier run")
-      ->type_name("FILE");
-  command->add_flag("--update-baseline", arguments->reports.update,
-                    "Write the --baseline file instead of comparing with it, and print the differences");
-  command->footer(std::string(experiment_words) + check_examples);
-  command->callback([arguments] { check(*arguments); });
+  add_command(app, "check", "Run an experiment; fail if a claim or threshold fails (CI)",
+              std::string(experiment_words) + check_examples, check);
 }
 
 }  // namespace footprint

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,8 +41,37 @@ class RunOptions {
   std::vector<Added> added_;
 };
 
+/// The arguments of a subcommand that has settings of a run.
+struct RunArguments {
+  explicit RunArguments(CLI::App& command) : run(command) {}
+
+  RunOptions run;
+  bool quiet = false;
+};
+
 /// Adds --quiet.
 void add_quiet_flag(CLI::App& command, bool& quiet);
+
+/// Adds an option or argument with a value that the help calls `type`.
+CLI::Option* add_value(CLI::App& command, const std::string& names, auto& value, const std::string& type,
+                       const std::string& help) {
+  return command.add_option(names, value, help)->type_name(type);
+}
+
+/// Adds --output, a folder; `help` says what it gets.
+inline CLI::Option* add_output_folder(CLI::App& command, std::string& output, const std::string& help) {
+  return add_value(command, "-o,--output", output, "DIR", help)->capture_default_str();
+}
+
+/// Adds a subcommand that does `work`. Its arguments add their options when they are made, and live as long as `app`.
+template <class Arguments>
+void add_command(CLI::App& app, const std::string& name, const std::string& description, const std::string& footer,
+                 void (*work)(const Arguments&)) {
+  CLI::App* command = app.add_subcommand(name, description);
+  const auto arguments = std::make_shared<Arguments>(*command);
+  command->footer(footer);
+  command->callback([arguments, work] { work(*arguments); });
+}
 
 /// A check of a number from `low` to `high`, both inclusive. Unlike CLI::Range it refuses NaN, and prints short limits.
 [[nodiscard]] inline CLI::Validator within(double low, double high) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -28,7 +27,8 @@
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/pixel_script.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "results/report/check_outcomes.hpp"
+#include "results/report/experiment_report.hpp"
+#include "results/report/json_archive.hpp"
 #include "results/report/page.hpp"
 #include "results/report/report.hpp"
 
@@ -39,31 +39,61 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* score_examples =
-    "IMAGE is an EXR or Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours "
-    "(sRGB),\n"
-    "for which measures of radiance are left out. Two images are scored separately, then compared pixel by pixel.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint score engine.exr --reference model.gltf --spp 256\n"
-    "  footprint score engine.exr --reference reference.exr\n"
-    "  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score\n"
-    "  footprint score a.exr b.exr --reference out/images/d1_reference.exr --mask object.png -o score\n"
-    "  footprint score nightly --reference golden --max p99=0.05 --max share_above:0.1=0.01 --junit score.xml\n"
-    "\n"
-    "If `footprint compare` wrote the reference, its exposure and standard error are used.";
+    R"(IMAGE is an EXR or Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours (sRGB),
+for which measures of radiance are left out. Two images are scored separately, then compared pixel by pixel.
+
+Examples:
+  footprint score engine.exr --reference model.gltf --spp 256
+  footprint score engine.exr --reference reference.exr
+  footprint score before.png after.png --reference reference.exr --exposure 0.5 -o score
+  footprint score a.exr b.exr --reference out/images/d1_reference.exr --mask object.png -o score
+  footprint score nightly --reference golden --max p99=0.05 --max share_above:0.1=0.01 --junit score.xml
+
+If `footprint compare` wrote the reference, its exposure and standard error are used.)";
 
 constexpr int scoring_pictures = 6;  // mean, squares, two halves, error, and one to spare
 
-struct ScoreArguments {
-  explicit ScoreArguments(CLI::App& command) : run(command) {}
+struct ScoreArguments : RunArguments {
+  explicit ScoreArguments(CLI::App& command) : RunArguments(command) {
+    add_value(command, "pictures", pictures, "IMAGE", "One image, two, or a folder of images")
+        ->required()
+        ->expected(1, 2);
+    add_value(command, "--reference", reference, "SCENE|EXR|FOLDER",
+              "Scene, an EXR of linear radiance, with coverage in alpha if present, or a folder of such images")
+        ->required();
+    add_value(command, "--standard-error", standard_error, "EXR",
+              "EXR of the reference's standard error, RGB; without it, noise counts as error");
+    add_value(command, "--mask", mask, "IMAGE", "Image that is black where pixels do not count");
+    add_value(command, "--picture-error", picture_error, "EXR",
+              "EXR of the image's own standard error, for --significance");
+    command
+        .add_option("--significance", significance,
+                    "Test every pixel: count those whose difference noise explains with less than this probability, "
+                    "over all pixels")
+        ->check(within(1e-9, 0.5));
+    add_value(command, "--max", limits, "NAME=VALUE",
+              "Fail (exit code 1) above VALUE; NAME is a measure of score.json, pN (percentile), share_above:E or "
+              "rejected; "
+              "may be repeated")
+        ->expected(1)
+        ->take_all();
+    add_value(command, "--junit", junit, "FILE", "Also write every limit as JUnit XML");
+    command.add_flag("--github", github, "Also print failures as annotations for GitHub workflows");
+    command
+        .add_option("--pixels-per-degree", pixels_per_degree,
+                    "Pixels per degree of the observer's field of view, for FLIP")
+        ->check(within(5.0, 1000.0))
+        ->capture_default_str();
+    add_output_folder(command, output, "Folder for index.html, score.json and images; default: none");
+    add_quiet_flag(command, quiet);
+  }
 
-  RunOptions run;
   std::vector<std::string> pictures;
   std::string reference, standard_error, picture_error, mask, output, junit;
   std::vector<std::string> limits;
   double pixels_per_degree = flip_pixels_per_degree;
   std::optional<double> significance;
-  bool github = false, quiet = false;
+  bool github = false;
 };
 
 // The reference of a score.
@@ -186,8 +216,7 @@ Scores take_scores(const ScoreArguments& arguments) {
 Json score_json(const PictureScore& score) {
   Json json{{"picture", score.name}, {"displayed", score.displayed}};
   for (const ScoreMetric& metric : score_metrics()) {
-    const std::optional<double> value = metric.value(score);
-    json[metric.key] = json_number(value && std::isfinite(*value) ? value : std::nullopt);
+    json[metric.key] = to_json_value(metric.value(score));
   }
   json["rejected"] = score.rejected ? Json(*score.rejected) : Json(nullptr);
   return json;
@@ -200,14 +229,14 @@ Json scores_json(const ScoreArguments& arguments, const Scores& scores) {
             {"tool", {{"name", "footprint"}, {"version", FOOTPRINT_VERSION}}},
             {"reference", scores.reference},
             {"mask", arguments.mask.empty() ? Json(nullptr) : Json(arguments.mask)},
-            {"exposure", json_number(scores.exposure)},
-            {"pixels_per_degree", json_number(arguments.pixels_per_degree)},
-            {"significance", json_number(arguments.significance)},
+            {"exposure", scores.exposure},
+            {"pixels_per_degree", arguments.pixels_per_degree},
+            {"significance", to_json_value(arguments.significance)},
             {"pixels", scores.pixels},
             {"unresolved", scores.unresolved},
             {"pictures", std::move(pictures)}};
   if (scores.pair) {
-    json["closer"] = {{"shares", {json_number(scores.pair->shares.a), json_number(scores.pair->shares.b)}},
+    json["closer"] = {{"shares", {scores.pair->shares.a, scores.pair->shares.b}},
                       {"beyond_noise", scores.pair->beyond_noise}};
   }
   return json;
@@ -226,8 +255,7 @@ Table table_of(const Scores& scores) {
 }
 
 std::string scores_table(const Scores& scores) {
-  const Table table = table_of(scores);
-  std::string text = markdown_table(table.columns, table.rows);
+  std::string text = markdown_table(table_of(scores));
   for (const PictureScore& score : scores.pictures) {
     if (score.rejected)
       text += fmt::format("\n{}: {} of {} pixels are off by more than noise.\n", score.name, *score.rejected,
@@ -350,13 +378,7 @@ void write_scores(const ScoreArguments& arguments, std::span<const Scores> all, 
 void judge(const ScoreArguments& arguments, std::span<const CheckOutcome> outcomes) {
   if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(outcomes));
   if (arguments.github) write_output(github_annotations(outcomes));
-  const std::vector<std::string> failed = shortfalls_of(outcomes);
-  std::string list;
-  for (const std::string& line : failed) list += "failed: " + line + "\n";
-  write_output(list);
-  if (failed.empty()) return;
-  throw Error(ErrorKind::check, "score",
-              fmt::format("{} limits failed, the first: {}", failed.size(), failed.front().substr(0, 300)), "");
+  require_none_failed("score", "limits", shortfalls_of(outcomes));
 }
 
 void run_score(const ScoreArguments& arguments) {
@@ -385,51 +407,7 @@ void run_score(const ScoreArguments& arguments) {
 }  // namespace
 
 void add_score_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("score", "Score images of any renderer against a reference");
-  const auto arguments = std::make_shared<ScoreArguments>(*command);
-  command->add_option("pictures", arguments->pictures, "One image, two, or a folder of images")
-      ->type_name("IMAGE")
-      ->required()
-      ->expected(1, 2);
-  command
-      ->add_option("--reference", arguments->reference,
-                   "Scene, an EXR of linear radiance, with coverage in alpha if present, or a folder of such images")
-      ->type_name("SCENE|EXR|FOLDER")
-      ->required();
-  command
-      ->add_option("--standard-error", arguments->standard_error,
-                   "EXR of the reference's standard error, RGB; without it, noise counts as error")
-      ->type_name("EXR");
-  command->add_option("--mask", arguments->mask, "Image that is black where pixels do not count")->type_name("IMAGE");
-  command
-      ->add_option("--picture-error", arguments->picture_error,
-                   "EXR of the image's own standard error, for --significance")
-      ->type_name("EXR");
-  command
-      ->add_option("--significance", arguments->significance,
-                   "Test every pixel: count those whose difference noise explains with less than this probability, "
-                   "over all pixels")
-      ->check(within(1e-9, 0.5));
-  command
-      ->add_option("--max", arguments->limits,
-                   "Fail (exit code 1) above VALUE; NAME is a measure of score.json, pN (percentile), share_above:E or "
-                   "rejected; "
-                   "may be repeated")
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->take_all();
-  command->add_option("--junit", arguments->junit, "Also write every limit as JUnit XML")->type_name("FILE");
-  command->add_flag("--github", arguments->github, "Also print failures as annotations for GitHub workflows");
-  command
-      ->add_option("--pixels-per-degree", arguments->pixels_per_degree,
-                   "Pixels per degree of the observer's field of view, for FLIP")
-      ->check(within(5.0, 1000.0))
-      ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Folder for index.html, score.json and images; default: none")
-      ->type_name("DIR");
-  add_quiet_flag(*command, arguments->quiet);
-  command->footer(score_examples);
-  command->callback([arguments] { run_score(*arguments); });
+  add_command(app, "score", "Score images of any renderer against a reference", score_examples, run_score);
 }
 
 }  // namespace footprint

@@ -1,4 +1,5 @@
-// `footprint surface`: writes the normal map of a procedural surface for other tools.
+// `footprint surface` and `footprint statistics`: the normal map of a procedural surface for other tools, and what a
+// normal map is like, by the size of a footprint.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -6,7 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,25 +16,39 @@
 #include "app/commands.hpp"
 #include "app/messages.hpp"
 #include "app/output.hpp"
+#include "app/run_options.hpp"
+#include "renderer/bake/map_statistics.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/scene/assembly/surface_maps.hpp"
+#include "results/report/json_archive.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint {
 namespace {
 
 constexpr const char* surface_examples =
-    "`footprint list surfaces` names the surfaces and their parameters. EXR stores unit normals as 32-bit floats,\n"
-    "-1 to 1: x right, y up, z out of the surface. PNG stores (n + 1) / 2 in 8 bits, green up, as glTF does.\n"
-    "\n"
-    "Examples:\n"
-    "  footprint surface v_grooves -o grooves.exr\n"
-    "  footprint surface scales --resolution 1024 --seed 7 --parameter count=16 --parameter fill=0.8 -o scales.exr\n"
-    "  footprint surface desert --resolution 2048 -o desert.png";
+    R"(`footprint list surfaces` names the surfaces and their parameters. EXR stores unit normals as 32-bit floats,
+-1 to 1: x right, y up, z out of the surface. PNG stores (n + 1) / 2 in 8 bits, green up, as glTF does.
+
+Examples:
+  footprint surface v_grooves -o grooves.exr
+  footprint surface scales --resolution 1024 --seed 7 --parameter count=16 --parameter fill=0.8 -o scales.exr
+  footprint surface desert --resolution 2048 -o desert.png)";
 
 struct SurfaceArguments {
+  explicit SurfaceArguments(CLI::App& command) {
+    add_value(command, "name", surface, "SURFACE", "Name of the surface")->required();
+    add_value(command, "-o,--output", output, "FILE", "The map, .exr or .png")->required();
+    command.add_option("--resolution", resolution, "Texels per side; default: the surface's own")
+        ->check(CLI::Range(1, largest_surface_resolution));
+    command.add_option("--seed", seed, "Random seed: same seed, same bytes")->capture_default_str();
+    add_value(command, "--parameter", parameters, "NAME=VALUE", "A parameter of the surface; may be repeated")
+        ->allow_extra_args(false);
+  }
+
   std::string surface;
   int resolution = 0;  // 0: the surface's own
   std::uint32_t seed = 1;
@@ -87,21 +103,144 @@ void run_surface(const SurfaceArguments& arguments) {
   write_output(fmt::format("{}\n", path.string()));
 }
 
+using Json = nlohmann::ordered_json;
+
+constexpr int correlated_level = 3;  // blocks of 8 x 8 texels
+constexpr const char* statistics_examples =
+    R"(Per level, over all blocks of 2^level x 2^level texels: the mean length of the mean normal, the slope variance per
+axis, its anisotropy (0 round, 1 a line), and tails: fourth moments over a Gaussian's. With --alpha or --roughness
+also the errors of simple GGX lobes, relative to the mean: one texel's, one about the mean normal, one that the
+variance widens, and one that the covariance widens.
+
+Examples:
+  footprint statistics normals.png
+  footprint statistics normals.png --gloss gloss.png --json
+  footprint statistics normals.png --alpha 0.2)";
+
+struct StatisticsArguments {
+  explicit StatisticsArguments(CLI::App& command) {
+    add_value(command, "map", map, "FILE", "A normal map, or heights with --height-scale")->required();
+    how.add_to(command);
+    add_value(command, "--gloss", gloss, "FILE", "A gloss map of the same size, for its correlation with the spread");
+    auto* squared = add_value(command, "--roughness", roughness, "FILE",
+                              "A roughness map of the same size: GGX's alpha is its square");
+    add_value(command, "--alpha", alpha, "X", "GGX's alpha, above 0 to 1")
+        ->check(within(smallest_alpha, 1.0))
+        ->excludes(squared);
+    command.add_flag("--json", json, "JSON instead of text, for programs");
+  }
+
+  MapOptions how;
+  std::string map, gloss, roughness;
+  std::optional<double> alpha;
+  bool json = false;
+};
+
+struct Statistics {
+  int width = 0, height = 0;
+  double unit_share = 0;
+  std::optional<double> correlation;  // with the gloss map
+  std::optional<double> mean_alpha;
+  std::vector<LevelStatistics> levels;
+  std::vector<LobeErrors> lobe_errors;  // per level; empty without a roughness
+};
+
+// An error of the work names its file.
+template <class Work>
+auto of_file(const std::string& file, Work work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw error.within(file);
+  }
+}
+
+// The alphas of --alpha or --roughness; empty without either.
+Image alphas_of(const StatisticsArguments& arguments) {
+  if (arguments.alpha) return {1, 1, 1, static_cast<float>(*arguments.alpha)};
+  if (arguments.roughness.empty()) return {};
+  const Image roughness = read_image(arguments.roughness, Transfer::linear);
+  Image alphas(roughness.width, roughness.height, 1);
+  for (std::size_t i = 0; i < alphas.texel_count(); ++i) {
+    const float value = roughness.texels[i * static_cast<std::size_t>(roughness.channels)];
+    alphas.texels[i] = std::max(value * value, static_cast<float>(smallest_alpha));
+  }
+  return alphas;
+}
+
+Statistics statistics_of(const StatisticsArguments& arguments) {
+  const NormalFile file = arguments.how.of(arguments.map);
+  std::vector<std::string> faults;  // the share of unit vectors tells them
+  const Image normals = read_normals(file, faults).decoded();
+  const bool encoded = !file.heights && !is_exr(file.path);
+  Statistics statistics{.width = normals.width,
+                        .height = normals.height,
+                        .unit_share = encoded ? unit_share(read_image(file.path, Transfer::linear)) : 1.0,
+                        .correlation = {},
+                        .mean_alpha = {},
+                        .levels = map_statistics(normals),
+                        .lobe_errors = {}};
+  if (!arguments.gloss.empty()) {
+    const Image gloss = read_image(arguments.gloss, Transfer::linear);
+    statistics.correlation =
+        of_file(arguments.gloss, [&] { return correlation_with_spread(normals, gloss, correlated_level); });
+  }
+  const Image alphas = alphas_of(arguments);
+  if (alphas.empty()) return statistics;
+  statistics.mean_alpha = mean_of(alphas);
+  for (const LevelStatistics& level : statistics.levels)
+    statistics.lobe_errors.push_back(
+        of_file(arguments.roughness, [&] { return lobe_errors(normals, alphas, level.level); }));
+  return statistics;
+}
+
+std::string text_of(const Statistics& statistics) {
+  std::string text = fmt::format("{}x{} texels, {:.1f}% of them unit vectors\n", statistics.width, statistics.height,
+                                 100.0 * statistics.unit_share);
+  if (statistics.correlation)
+    text += fmt::format("correlation of gloss with slope variance, 8x8 texels: {:.2f}\n", *statistics.correlation);
+  text += fmt::format("\n{:>5} {:>10} {:>10} {:>11} {:>7}", "level", "length", "variance", "anisotropy", "tails");
+  if (!statistics.lobe_errors.empty())
+    text += fmt::format(" {:>9} {:>9} {:>9} {:>10}", "texel", "mean", "round", "elliptical");
+  for (std::size_t i = 0; i < statistics.levels.size(); ++i) {
+    const LevelStatistics& level = statistics.levels[i];
+    text += fmt::format("\n{:>5} {:>10.5f} {:>10.3g} {:>11.3f} {:>7.2f}", level.level, level.resultant, level.variance,
+                        level.anisotropy, level.tails);
+    if (statistics.lobe_errors.empty()) continue;
+    const LobeErrors& errors = statistics.lobe_errors[i];
+    text += fmt::format(" {:>9.4g} {:>9.4g} {:>9.4g} {:>10.4g}", errors[0], errors[1], errors[2], errors[3]);
+  }
+  return text + "\n";
+}
+
+std::string json_of(const Statistics& statistics) {
+  Json json{{"schema", "footprint-statistics/1"},
+            {"size", {statistics.width, statistics.height}},
+            {"unit_share", statistics.unit_share},
+            {"gloss_correlation", to_json_value(statistics.correlation)},
+            {"mean_alpha", to_json_value(statistics.mean_alpha)},
+            {"levels", Json::array()}};
+  for (std::size_t i = 0; i < statistics.levels.size(); ++i) {
+    json["levels"].push_back(to_json_value(statistics.levels[i]));
+    if (!statistics.lobe_errors.empty()) json["levels"].back()["lobe_errors"] = statistics.lobe_errors[i];
+  }
+  return json.dump(2) + "\n";
+}
+
+void run_statistics(const StatisticsArguments& arguments) {
+  const Statistics statistics = statistics_of(arguments);
+  write_output(arguments.json ? json_of(statistics) : text_of(statistics));
+}
+
 }  // namespace
 
 void add_surface_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("surface", "Write the normal map of a procedural surface");
-  const auto arguments = std::make_shared<SurfaceArguments>();
-  command->add_option("name", arguments->surface, "Name of the surface")->type_name("SURFACE")->required();
-  command->add_option("-o,--output", arguments->output, "The map, .exr or .png")->type_name("FILE")->required();
-  command->add_option("--resolution", arguments->resolution, "Texels per side; default: the surface's own")
-      ->check(CLI::Range(1, largest_surface_resolution));
-  command->add_option("--seed", arguments->seed, "Random seed: same seed, same bytes")->capture_default_str();
-  command->add_option("--parameter", arguments->parameters, "A parameter of the surface; may be repeated")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  command->footer(surface_examples);
-  command->callback([arguments] { run_surface(*arguments); });
+  add_command(app, "surface", "Write the normal map of a procedural surface", surface_examples, run_surface);
+}
+
+void add_statistics_command(CLI::App& app) {
+  add_command(app, "statistics", "Describe a normal map by numbers, per footprint size", statistics_examples,
+              run_statistics);
 }
 
 }  // namespace footprint

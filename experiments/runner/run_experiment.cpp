@@ -49,7 +49,7 @@ void set_estimated_times(Record& record, const std::string& gpu) {
   const bool is_known = cost != record.gpu_costs.end() && !cost->failure;
   const double ms_per_ns = 1e-6 * static_cast<double>(record.pixels.object);
   const double ms = is_known ? ms_per_ns * cost->cost_ns : not_estimated;
-  record.frame_ms = FrameTime{.median = ms, .minimum = ms, .p90 = ms};
+  record.frame_ms = FrameTime{.median = ms, .min = ms, .p90 = ms};
   record.fps = 1000.0 / ms;
   record.node.clear();  // an estimate does not depend on the host
   if (!record.frame_build_ms) return;
@@ -175,14 +175,14 @@ std::vector<FootprintNdf> inspected(const Experiment& experiment, const NdfSourc
   const NdfSettings wanted{.run = experiment.run, .footprint = footprint.rect};
   const NdfResults found = inspect_ndf(source, wanted, folder / subfolder, progress);
   std::vector<FootprintNdf> figures;
-  for (const NdfRecord& record : found.records) {
+  for (const auto& [method, record] : found.methods) {
     figures.push_back({.footprint = footprint.name,
-                       .method = record.method,
+                       .method = method,
                        .l2 = record.l2,
                        .energy = record.energy,
                        .peak = record.peak,
                        .lobes = record.lobes,
-                       .picture = subfolder + "/" + found.strip});
+                       .picture = subfolder + "/" + found.pictures.strip});
   }
   return figures;
 }

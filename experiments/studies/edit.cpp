@@ -179,8 +179,7 @@ class Editor {
     run_.scene = scene_info(scene_, exposure_);
     run_.kind = edited_;
     run_.method = method().text;
-    run_.width = size_.x;
-    run_.height = size_.y;
+    run_.size = {size_.x, size_.y};
     return std::move(run_);
   }
 

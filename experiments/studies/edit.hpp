@@ -13,7 +13,7 @@
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/microgeometry/patch.hpp"
 #include "renderer/scene/scene.hpp"
-#include "results/report/edit_report.hpp"
+#include "results/report/command_reports.hpp"
 
 namespace footprint {
 

@@ -42,7 +42,7 @@ TimeRatio ratio_between(const std::vector<double>& times, const std::vector<doub
 }
 
 void set_frame_times(Record& record, const std::vector<double>& times) {
-  record.frame_ms = {.median = quantile(times, 0.5), .minimum = std::ranges::min(times), .p90 = quantile(times, 0.9)};
+  record.frame_ms = {.median = quantile(times, 0.5), .min = std::ranges::min(times), .p90 = quantile(times, 0.9)};
   record.fps = 1000.0 / record.frame_ms.median;
 }
 

@@ -266,8 +266,7 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
   report.scene = stage.info({});
   report.footprint = footprint_filter_text(footprint_filter_of(settings, stage.scene()));
   report.compiler = gpus.compiler();
-  report.width = view.size.x;
-  report.height = view.size.y;
+  report.size = {view.size.x, view.size.y};
   report.distance = distance_of(settings);
   ProgressParts methods(parts.next(6, ""), static_cast<double>(settings.methods.size()));
   for (std::size_t m = 0; m < settings.methods.size(); ++m) {

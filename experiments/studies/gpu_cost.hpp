@@ -12,7 +12,7 @@
 #include "renderer/core/progress.hpp"
 #include "renderer/gpu_cost/compiled_programs.hpp"
 #include "renderer/gpu_cost/estimate.hpp"
-#include "results/report/gpu_cost_report.hpp"
+#include "results/report/command_reports.hpp"
 
 namespace footprint {
 

@@ -113,12 +113,12 @@ struct NdfPicture {
 
 // Writes images/STEM.exr, STEM.png and STEM_values.js for the exact NDF and every method, images/STEM_difference.png
 // for every method, and ndf.png, all of them side by side over the scale, below `folder`; fills in the paths and the
-// scale of `results`, whose records are those of `methods`. The scale runs from 0 to the exact NDF's largest density.
+// scale of `results`, which has the same methods. The scale runs from 0 to the exact NDF's largest density.
 void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& exact,
                         std::span<const NdfPicture> methods, NdfResults& results) {
   const float scale = *std::ranges::max_element(exact.densities);
-  results.scale = scale;
-  const auto write = [&](const NdfPicture& picture, NdfImages& images) {
+  results.pictures.scale = scale;
+  const auto write = [&](const NdfPicture& picture, auto& images) {
     images.density = "images/" + picture.stem + ".exr";
     images.picture = "images/" + picture.stem + ".png";
     Image shown = colored(size, picture.densities, scale);
@@ -129,10 +129,10 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     return shown;
   };
   Row densities, errors;
-  densities.add(write(exact, results.exact.images), exact.caption);
+  densities.add(write(exact, results.truth.images), exact.caption);
   errors.add(Image(size, size, 3, around), "| method - truth |");
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    NdfImages& images = results.records.at(i).images;
+    NdfImages& images = results.methods.at(i).second.images;
     densities.add(write(methods[i], images), methods[i].caption);
     images.difference = "images/" + methods[i].stem + "_difference.png";
     errors.add(colored(size, differences(methods[i].densities, exact.densities), scale), methods[i].caption);
@@ -141,8 +141,8 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
   const Image strip =
       stacked(labelled_strip(densities.pictures, densities.captions), labelled_strip(errors.pictures, errors.captions));
   const Image legend = false_color_legend(strip.width, std::max(24, size / 12), scale);
-  results.strip = "ndf.png";
-  write_png(folder / results.strip, stacked(strip, legend));
+  results.pictures.strip = "ndf.png";
+  write_png(folder / results.pictures.strip, stacked(strip, legend));
 }
 
 // Pictures are of facets merged within this part of the narrowest lobe's width: within 1e-3 of a lobe's peak.
@@ -181,40 +181,37 @@ Grid exact_grid(const Material& material, const NdfSettings& settings, const Foo
   const auto merged = [&](double part) {
     return ReferenceNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)), material.anisotropy);
   };
-  results.lobe = lobe_text(narrowest);
-  results.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);
-  require_grid_memory(results.resolution, settings.picture);
-  Grid grid{hemisphere_grid(results.resolution), disc_directions(settings.picture), {}, {}};
+  results.lobe.narrowest = lobe_text(narrowest);
+  results.grid.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);
+  require_grid_memory(results.grid.resolution, settings.picture);
+  Grid grid{hemisphere_grid(results.grid.resolution), disc_directions(settings.picture), {}, {}};
   grid.exact = exact.densities(grid.hemisphere.directions, parts.next(1, ""));
   const std::vector<double> picture = merged(part_in_pictures).densities(grid.disc, parts.next(1, ""));
   grid.picture.assign(picture.begin(), picture.end());
   const NdfTotals totals = ndf_totals(grid.hemisphere, grid.exact);
-  results.directions = grid.hemisphere.directions.size();
-  results.exact.energy = totals.energy;
-  results.exact.peak = std::max(totals.peak, largest_density(grid.picture));
-  results.exact.expected_energy = merged(part_in_energy).expected_energy();
-  results.fine_enough =
-      std::abs(totals.energy - results.exact.expected_energy) <= ndf_energy_tolerance * results.exact.expected_energy;
+  results.grid.directions = grid.hemisphere.directions.size();
+  results.truth.energy = totals.energy;
+  results.truth.peak = std::max(totals.peak, largest_density(grid.picture));
+  results.truth.expected_energy = merged(part_in_energy).expected_energy();
+  results.grid.fine_enough =
+      std::abs(totals.energy - results.truth.expected_energy) <= ndf_energy_tolerance * results.truth.expected_energy;
   return grid;
 }
 
 NdfResults described(const NdfSource& source, const NdfSettings& settings, const FootprintTexels& texels) {
   const FootprintRect& rect = settings.footprint;
   NdfResults results;
-  results.source = source.path;
-  results.kind = source.is_map ? "map" : "scene";
-  results.material = source.material.name;
+  results.source = {.path = source.path, .kind = source.is_map ? "map" : "scene", .material = source.material.name};
   if (source.material.normal_map) {
     const MapTexels& map = source.material.normal_map->image;
-    results.map_size = {map.width(), map.height()};
+    results.source.width = map.width();
+    results.source.height = map.height();
   }
-  results.lobe_varies = texels.facets.front().parameter != texels.facets.back().parameter;  // sorted by it
+  results.lobe.varies = texels.facets.front().parameter != texels.facets.back().parameter;  // sorted by it
   results.footprint = {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y};
-  results.texels = texels.texels;
-  results.valid_share = texels.valid_share;
-  results.facets = texels.facets.size();
-  results.level = footprint_level(source.material, rect);
-  results.filter = footprint_filter_text(filter_of(settings.run));
+  results.texels = {.area = texels.texels, .valid_share = texels.valid_share, .distinct = texels.facets.size()};
+  results.fetch = {.level = footprint_level(source.material, rect),
+                   .filter = footprint_filter_text(filter_of(settings.run))};
   results.notes = source.notes;
   return results;
 }
@@ -277,14 +274,14 @@ class NdfEvaluator {
       results.notes.push_back(fmt::format("{}: {}", spec.text, note));
     const std::vector<float> densities = ndf.densities(target.footprint, grid.hemisphere.directions);
     const NdfFigures figures = compare_ndfs(grid.hemisphere, densities, grid.exact);
-    NdfRecord record{spec.text, {}, figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}};
+    NdfRecord record{figures.l2, figures.energy, figures.peak, method.lobe_count(baked.options), {}, {}};
     for (const auto& [name, value] : baked.options.all()) record.options[name] = value;
-    results.records.push_back(std::move(record));
+    results.methods.emplace_back(spec.text, std::move(record));
     NdfPicture picture{file_stem(spec.text), fmt::format("{}  L2 {:.3g}", spec.text, figures.l2),
                        ndf.densities(target.footprint, grid.disc)};
     context_.check("evaluating the NDF of " + spec.text);
     const double peak = largest_density(picture.densities);
-    results.records.back().peak = std::isfinite(peak) ? figures.peak + std::max(peak - figures.peak, 0.0) : peak;
+    results.methods.back().second.peak = std::isfinite(peak) ? figures.peak + std::max(peak - figures.peak, 0.0) : peak;
     return picture;
   }
 

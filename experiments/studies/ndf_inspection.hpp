@@ -11,7 +11,7 @@
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/settings/part.hpp"
 #include "renderer/scene/surface.hpp"
-#include "results/report/ndf_report.hpp"
+#include "results/report/command_reports.hpp"
 
 namespace footprint {
 

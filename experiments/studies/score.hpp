@@ -12,7 +12,7 @@
 #include "renderer/image/image.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/supersample.hpp"
-#include "results/report/check_outcomes.hpp"
+#include "results/report/experiment_report.hpp"
 
 namespace footprint {
 

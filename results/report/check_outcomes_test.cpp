@@ -1,5 +1,5 @@
 // Checks for other programs: JUnit XML, annotations, baselines, each shown what must fall.
-#include "results/report/check_outcomes.hpp"
+#include "results/report/experiment_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

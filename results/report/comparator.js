@@ -418,16 +418,14 @@ function layPanes() {
 
 function showPicker() {
   const radio = (side, image) => {
-    const input = Object.assign(element('input'), {type: 'radio', name: `side-${side}`, checked: chosen(side) === image});
+    const input = control('input', {type: 'radio', name: `side-${side}`, checked: chosen(side) === image},
+      () => choose(side, image.name));
     input.setAttribute('aria-label', `${image.name} is ${side.toUpperCase()}`);
-    input.addEventListener('change', () => choose(side, image.name));
     return element('td', '', input);
   };
   byId('picker').tBodies[0].replaceChildren(...closest.images.map((image, i) => {
-    const label = element('button', '', ...(i ? [key(image.name)] : []), ...breakable(image.name));
-    label.type = 'button';
-    label.title = i && i < 10 ? `key ${i}` : 'key R';
-    label.addEventListener('click', () => choose('b', image.name));
+    const label = button({title: i && i < 10 ? `key ${i}` : 'key R'}, () => choose('b', image.name),
+      ...(i ? [key(image.name)] : []), ...breakable(image.name));
     return element('tr', '', radio('a', image), radio('b', image), element('td', 'words-column', label),
       element('td', 'number', image.caption ?? ''));
   }));
@@ -662,8 +660,7 @@ function startComparator() {
   segments('modes', modes.map(([value, text]) => ({value, text})), state.mode, (mode) => changeComparator({mode}));
   segments('zooms', [{value: 'fit', text: 'fit'}, ...[2, 4, 8, 16].map((value) => ({value, text: `${value}×`}))], 'fit',
     (zoom) => (zoom === 'fit' ? moveTo({zoom: null, center: null}) : moveTo({zoom: Number(zoom), center: centerNow()})));
-  byId('map').append(...maps.filter(([name]) => availableMaps().includes(name)).map(([value, text]) =>
-    Object.assign(element('option', '', text), {value})));
+  byId('map').append(...maps.filter(([name]) => availableMaps().includes(name)).map(([value, text]) => option(value, text)));
   byId('map').addEventListener('change', (event) => changeComparator({map: event.target.value}));
   byId('exposure-tool').hidden = data.in_false_color;
   byId('exposure').addEventListener('input', (event) => setStops(Number(event.target.value)));

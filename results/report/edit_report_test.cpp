@@ -1,5 +1,5 @@
 // edit.json, edit.csv and the table of an edit.
-#include "results/report/edit_report.hpp"
+#include "results/report/command_reports.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,7 @@ EditRun two_edits() {
   run.scene.name = "woven_cloth";
   run.kind = "weave";
   run.method = "iwasaki_sg:j=4";
-  run.width = 64;
-  run.height = 48;
+  run.size = {64, 48};
   run.records.push_back({.frame = 0,
                          .parameters = {{"height", "0.1"}, {"warp_width", "0.5"}},
                          .stages = {{"geometry", 0.001}, {"visibility", 0.02}, {"frame", 0.004}},

@@ -1,4 +1,5 @@
-// Values as JSON and back. A structure lists its fields once, by `fields(archive, value)` in its namespace:
+// Values as JSON and back. The fields of a structure are its members, by their names. One that differs from its
+// document lists its fields once, by `fields(archive, value)` in its namespace:
 //   void fields(auto& archive, Is<Flicker> auto& value) { archive("mean", value.mean); ... }
 // An enumeration gives its words by `words_of(value)`. A number that is not finite is null, like an absent value.
 #pragma once
@@ -10,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -26,6 +28,101 @@ namespace footprint {
 template <class Value, class Type>
 concept Is = std::same_as<std::remove_const_t<Value>, Type>;
 
+/// Pairs of a name and a value: a map, or a list in its own order.
+template <class T>
+concept IsObject = std::ranges::range<T> && std::is_convertible_v<decltype(T::value_type::first), std::string>;
+
+/// Stands for a value of any type where the members of a structure are counted.
+struct AnyMember {
+  template <class T>
+  operator T() const;
+};
+
+/// The number of members of a structure: it can be made of so many values, and of no more.
+template <class T, class... Members>
+[[nodiscard]] consteval std::size_t member_count() {
+  if constexpr (requires { T{Members{}..., AnyMember{}}; }) {
+    return member_count<T, Members..., AnyMember>();
+  } else {
+    return sizeof...(Members);
+  }
+}
+
+/// References to the members of a structure, at most twelve.
+template <class T>
+[[nodiscard]] constexpr auto members_of(T& value) {
+  constexpr std::size_t count = member_count<std::remove_const_t<T>>();
+  static_assert(count > 0 && count <= 12, "a structure of more members lists its fields itself");
+  if constexpr (count == 1) {
+    auto& [a] = value;
+    return std::tie(a);
+  } else if constexpr (count == 2) {
+    auto& [a, b] = value;
+    return std::tie(a, b);
+  } else if constexpr (count == 3) {
+    auto& [a, b, c] = value;
+    return std::tie(a, b, c);
+  } else if constexpr (count == 4) {
+    auto& [a, b, c, d] = value;
+    return std::tie(a, b, c, d);
+  } else if constexpr (count == 5) {
+    auto& [a, b, c, d, e] = value;
+    return std::tie(a, b, c, d, e);
+  } else if constexpr (count == 6) {
+    auto& [a, b, c, d, e, f] = value;
+    return std::tie(a, b, c, d, e, f);
+  } else if constexpr (count == 7) {
+    auto& [a, b, c, d, e, f, g] = value;
+    return std::tie(a, b, c, d, e, f, g);
+  } else if constexpr (count == 8) {
+    auto& [a, b, c, d, e, f, g, h] = value;
+    return std::tie(a, b, c, d, e, f, g, h);
+  } else if constexpr (count == 9) {
+    auto& [a, b, c, d, e, f, g, h, i] = value;
+    return std::tie(a, b, c, d, e, f, g, h, i);
+  } else if constexpr (count == 10) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = value;
+    return std::tie(a, b, c, d, e, f, g, h, i, j);
+  } else if constexpr (count == 11) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k);
+  } else if constexpr (count == 12) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = value;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
+  }
+}
+
+/// The address of a member as an argument of a template, whose name the compiler then writes out.
+template <class T>
+struct MemberAddress {
+  const T* address;
+  constexpr explicit MemberAddress(const T& member) : address(&member) {}
+};
+
+/// The name in C++ of the member at an address.
+template <MemberAddress member>
+[[nodiscard]] constexpr std::string member_name() {
+  const std::string_view text = __PRETTY_FUNCTION__;  // "... = {(& example<Flicker>.footprint::Flicker::mean)}; ..."
+  const std::size_t end = text.find_last_not_of(')', text.rfind('}') - 1) + 1;
+  const std::size_t start = text.find_last_of(":.", end) + 1;
+  return std::string(text.substr(start, end - start));
+}
+
+/// A structure to take the addresses of members of; there is none at run time.
+template <class T>
+extern const T example;
+
+/// Every member of a structure that has no list of its own.
+template <class Archive, class Structure>
+void fields(Archive& archive, Structure& value) {
+  const auto members = members_of(value);
+  const auto add = [&]<std::size_t... i>(std::index_sequence<i...> /*all*/) {
+    constexpr auto all = members_of(example<std::remove_const_t<Structure>>);  // NOLINT(*-undefined-var-template)
+    (archive(member_name<MemberAddress(std::get<i>(all))>().c_str(), std::get<i>(members)), ...);
+  };
+  add(std::make_index_sequence<std::tuple_size_v<decltype(members)>>());
+}
+
 /// Builds an object, field by field in their order.
 class JsonWriter {
  public:
@@ -40,23 +137,21 @@ class JsonWriter {
       return word_for(words_of(value), value);
     } else if constexpr (std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string_view> || Is<T, Json>) {
       return value;
+    } else if constexpr (requires { value.has_value(); }) {
+      return value ? json_of(*value) : Json();
+    } else if constexpr (IsObject<T>) {
+      Json object = Json::object();
+      for (const auto& [name, inner] : value) object[name] = json_of(inner);
+      return object;
+    } else if constexpr (std::ranges::range<T>) {
+      Json array = Json::array();
+      for (const auto& inner : value) array.push_back(json_of(inner));
+      return array;
     } else {
       JsonWriter writer;
       fields(writer, value);
       return std::move(writer.json_);
     }
-  }
-  template <class T>
-  [[nodiscard]] static Json json_of(const std::optional<T>& value) {
-    return value ? json_of(*value) : Json();
-  }
-  template <class T>
-  [[nodiscard]] static Json json_of(const std::vector<T>& values) {
-    return array_of(values);
-  }
-  template <class T, std::size_t count>
-  [[nodiscard]] static Json json_of(const std::array<T, count>& values) {
-    return array_of(values);
   }
   template <class... T>
   [[nodiscard]] static Json json_of(const std::variant<T...>& value) {
@@ -65,14 +160,6 @@ class JsonWriter {
   template <class... T>
   [[nodiscard]] static Json json_of(const std::tuple<T...>& values) {
     return std::apply([](const auto&... each) { return Json::array({json_of(each)...}); }, values);
-  }
-  template <class T>
-  [[nodiscard]] static Json json_of(const std::map<std::string, T>& values) {
-    return object_of(values);
-  }
-  template <class T>
-  [[nodiscard]] static Json json_of(const std::vector<std::pair<std::string, T>>& values) {
-    return object_of(values);
   }
 
   template <class T>
@@ -93,17 +180,6 @@ class JsonWriter {
   }
 
  private:
-  [[nodiscard]] static Json array_of(const auto& values) {
-    Json array = Json::array();
-    for (const auto& value : values) array.push_back(json_of(value));
-    return array;
-  }
-  [[nodiscard]] static Json object_of(const auto& values) {
-    Json object = Json::object();
-    for (const auto& [name, value] : values) object[name] = json_of(value);
-    return object;
-  }
-
   Json json_ = Json::object();
 };
 
@@ -136,37 +212,27 @@ class JsonReader {
       value = word_value(words_of(value), json.get<std::string>(), "word", "JSON");
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
       value = json.get<T>();
+    } else if constexpr (requires { value.has_value(); }) {
+      value.reset();
+      if (!json.is_null()) read(json, value.emplace());
+    } else if constexpr (IsObject<T>) {
+      for (const auto& [name, inner] : json.items())
+        read(inner, value.insert(value.end(), typename T::value_type(name, {}))->second);
+    } else if constexpr (requires { value.emplace_back(); }) {
+      value.clear();
+      for (const Json& inner : json) read(inner, value.emplace_back());
+    } else if constexpr (std::ranges::range<T>) {
+      std::size_t i = 0;
+      for (auto& inner : value) read(json.at(i++), inner);
     } else {
       JsonReader reader(json);
       fields(reader, value);
     }
   }
-  template <class T>
-  static void read(const Json& json, std::optional<T>& value) {
-    value.reset();
-    if (!json.is_null()) read(json, value.emplace());
-  }
-  template <class T>
-  static void read(const Json& json, std::vector<T>& values) {
-    values.clear();
-    for (const Json& element : json) read(element, values.emplace_back());
-  }
-  template <class T, std::size_t count>
-  static void read(const Json& json, std::array<T, count>& values) {
-    for (std::size_t i = 0; i < count; ++i) read(json.at(i), values.at(i));
-  }
   template <class... T>
   static void read(const Json& json, std::tuple<T&...>& values) {
     std::size_t i = 0;
     std::apply([&](auto&... each) { (read(json.at(i++), each), ...); }, values);
-  }
-  template <class T>
-  static void read(const Json& json, std::map<std::string, T>& values) {
-    for (const auto& [name, value] : json.items()) read(value, values[name]);
-  }
-  template <class T>
-  static void read(const Json& json, std::vector<std::pair<std::string, T>>& values) {
-    for (const auto& [name, value] : json.items()) read(value, values.emplace_back(name, T{}).second);
   }
   static void read(const Json& json, std::variant<double, std::string>& value) {
     if (json.is_string()) {

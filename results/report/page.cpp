@@ -14,6 +14,7 @@
 
 #include "renderer/core/embedded_texts.hpp"
 #include "renderer/image/false_color.hpp"
+#include "results/report/json_archive.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -72,8 +73,8 @@ std::string markdown_escaped(const std::string& text) {
   return escaped;
 }
 
-std::string markdown_table(const std::vector<MarkdownColumn>& columns,
-                           const std::vector<std::vector<std::string>>& rows) {
+std::string markdown_table(const Table& table) {
+  const auto& [heading, columns, rows] = table;
   std::vector<std::string> titles;
   std::vector<std::size_t> widths;
   for (const MarkdownColumn& column : columns) {
@@ -95,6 +96,11 @@ std::string markdown_table(const std::vector<MarkdownColumn>& columns,
   text += "\n";
   for (const std::vector<std::string>& row : cells) text += row_text(row, widths, columns);
   return text;
+}
+
+std::string markdown_section(const Table& table, int level) {
+  if (table.rows.empty()) return {};
+  return fmt::format("\n{:#<{}} {}\n\n{}", "", level, table.heading, markdown_table(table));
 }
 
 std::string html_table(const Table& table) {
@@ -128,44 +134,25 @@ std::string fill_template(std::string_view page, const std::map<std::string, std
   }
 }
 
-std::string html_escaped(std::string_view text) {
-  std::string escaped;
+std::string escaped(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> escapes) {
+  std::string out;
+  out.reserve(text.size());
   for (const char character : text) {
-    switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += character;
+    const auto* escape = std::ranges::find(escapes, character, &std::pair<char, std::string_view>::first);
+    if (escape != escapes.end()) {
+      out += escape->second;
+    } else {
+      out += character;
     }
   }
-  return escaped;
+  return out;
 }
 
-std::string script_escaped(std::string_view json) {
-  std::string escaped;
-  escaped.reserve(json.size());
-  for (const char character : json) {
-    if (character == '<') {
-      escaped += "\\u003c";
-    } else {
-      escaped += character;
-    }
-  }
-  return escaped;
+std::string html_escaped(std::string_view text) {
+  return escaped(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});
 }
+
+std::string script_escaped(std::string_view json) { return escaped(json, {{'<', "\\u003c"}}); }
 
 extern const EmbeddedTexts page_texts;
 
@@ -191,73 +178,23 @@ Json scale_colors() {
   return list;
 }
 
-Json views_json(const std::vector<PageView>& views) {
-  Json list = Json::array();
-  for (const PageView& view : views) {
-    Json images = Json::array();
-    for (const PageImage& image : view.images) {
-      images.push_back({{"name", image.name},
-                        {"png", image.png},
-                        {"values", image.values},
-                        {"error", image.error},
-                        {"flip", image.flip},
-                        {"caption", image.caption}});
-    }
-    list.push_back({{"label", view.label}, {"images", std::move(images)}});
-  }
-  return list;
-}
-
-Json plot_json(const PagePlot& plot) {
-  Json points = Json::array();
-  for (const PagePoint& p : plot.points) {
-    points.push_back(
-        {{"name", p.name}, {"x", p.cost}, {"low", p.low}, {"high", p.high}, {"y", p.error}, {"chosen", p.is_chosen}});
-  }
-  return {{"title", plot.cost_title},
-          {"points", std::move(points)},
-          {"most_x", json_number(plot.most_cost)},
-          {"most_y", json_number(plot.most_error)}};
-}
-
-Json table_json(const Table& table) {
-  Json columns = Json::array();
-  for (const MarkdownColumn& column : table.columns)
-    columns.push_back({{"title", column.title}, {"words", !column.numeric}});
-  return {{"columns", std::move(columns)}, {"rows", table.rows}};
-}
-
-Json sections_json(const std::vector<PageSection>& sections) {
-  Json list = Json::array();
-  for (const PageSection& section : sections) {
-    list.push_back({{"heading", section.heading},
-                    {"sentences", section.sentences},
-                    {"command", section.command},
-                    {"plot", plot_json(section.plot)},
-                    {"table", table_json(section.table)},
-                    {"marked", section.marked_row ? Json(*section.marked_row) : Json(nullptr)},
-                    {"links", section.links}});
-  }
-  return list;
-}
-
 }  // namespace
 
-std::string page_html(const Page& page) { return page_html(page, Json::object()); }
+void fields(JsonWriter& archive, const Page& value) {
+  archive("answer", value.answer);
+  archive("lede", value.lede);
+  archive("exposure", value.exposure);
+  archive("in_false_color", value.in_false_color);
+  archive("views", value.views);
+  archive("shown", value.shown);
+  archive("sections", value.sections);
+  archive("provenance", value.provenance);
+  archive("palette", Json::parse(find_text(page_texts, "palette.json")->text));
+  archive("scale_colors", scale_colors());
+}
 
 std::string page_html(const Page& page, const nlohmann::ordered_json& own) {
-  Json data{{"answer", page.answer},
-            {"lede", page.lede},
-            {"exposure", page.exposure},
-            {"in_false_color", page.in_false_color},
-            {"views", views_json(page.views)},
-            {"shown", page.shown},
-            {"sections", sections_json(page.sections)},
-            {"provenance", Json::array()},
-            {"palette", Json::parse(find_text(page_texts, "palette.json")->text)},
-            {"scale_colors", scale_colors()}};
-  for (const Provenance& line : page.provenance)
-    data["provenance"].push_back({{"label", line.label}, {"value", line.value}});
+  Json data = to_json_value(page);
   data.update(own);
   std::string scripts;
   for (const std::string_view file : page_scripts) {

@@ -1,11 +1,13 @@
 // The page of a command for readers in a browser (one template, one style, one set of scripts), and markup of reports.
 #pragma once
 
+#include <initializer_list>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "results/report/figures.hpp"
@@ -30,13 +32,19 @@ struct Table {
 /// The table under its heading, every cell escaped; empty without rows.
 [[nodiscard]] std::string html_table(const Table& table);
 
-/// The table, every cell escaped; each row has one cell per column.
-[[nodiscard]] std::string markdown_table(const std::vector<MarkdownColumn>& columns,
-                                         const std::vector<std::vector<std::string>>& rows);
+/// The table without its heading, every cell escaped.
+[[nodiscard]] std::string markdown_table(const Table& table);
+
+/// The same below its heading, of a level; empty without rows.
+[[nodiscard]] std::string markdown_section(const Table& table, int level = 2);
 
 /// `page` with every `{{name}}` replaced by its value; values are not searched again. Throws std::logic_error for a
 /// name without a value: template and program belong together.
 [[nodiscard]] std::string fill_template(std::string_view page, const std::map<std::string, std::string_view>& values);
+
+/// `text` with characters replaced.
+[[nodiscard]] std::string escaped(std::string_view text,
+                                  std::initializer_list<std::pair<char, std::string_view>> escapes);
 
 /// `text` for use as HTML content or in a quoted attribute.
 [[nodiscard]] std::string html_escaped(std::string_view text);
@@ -63,15 +71,16 @@ struct PageView {
 /// A candidate in a plot of error against cost.
 struct PagePoint {
   std::string name;
-  double cost = 0, low = 0, high = 0, error = 0;  ///< the spread is that of the cost
-  bool is_chosen = false;
+  double x = 0, low = 0, high = 0;  ///< its cost, with the spread
+  double y = 0;                     ///< its error
+  bool chosen = false;
 };
 
 /// Error against cost, on logarithmic axes.
 struct PagePlot {
-  std::string cost_title;
+  std::string title;  ///< of the cost
   std::vector<PagePoint> points;
-  std::optional<double> most_cost = {}, most_error = {};  ///< limits, drawn as lines
+  std::optional<double> most_x = {}, most_y = {};  ///< limits, drawn as lines
 };
 
 /// A section of its own: what it has of these, in this order.
@@ -80,9 +89,9 @@ struct PageSection {
   std::vector<std::string> sentences = {};
   std::string command = {};  ///< to copy
   PagePlot plot = {};
-  Table table = {};  ///< its own heading is not shown
-  std::optional<std::size_t> marked_row = {};
-  std::vector<std::string> links = {};  ///< pages, relative to this one
+  Table table = {};                        ///< its own heading is not shown
+  std::optional<std::size_t> marked = {};  ///< row of the table
+  std::vector<std::string> links = {};     ///< pages, relative to this one
 };
 
 struct Page {
@@ -99,10 +108,8 @@ struct Page {
 };
 
 /// The page, whole and self-contained but for the images beside it and their values.
-[[nodiscard]] std::string page_html(const Page& page);
-
-/// The same with further data for the page's scripts.
-/// own: an object; its keys replace those of the page.
-[[nodiscard]] std::string page_html(const Page& page, const nlohmann::ordered_json& own);
+/// own: further data for the scripts, an object; its keys replace those of the page.
+[[nodiscard]] std::string page_html(const Page& page,
+                                    const nlohmann::ordered_json& own = nlohmann::ordered_json::object());
 
 }  // namespace footprint

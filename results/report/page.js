@@ -31,6 +31,15 @@ function element(tag, className, ...children) {
   return node;
 }
 
+/** A control with properties; `act` is called with it when it is clicked or changed. */
+function control(tag, properties, act, ...children) {
+  const node = Object.assign(element(tag, '', ...children), properties);
+  node.addEventListener(tag === 'button' ? 'click' : 'change', () => act(node));
+  return node;
+}
+
+const button = (properties, act, ...children) => control('button', {type: 'button', ...properties}, act, ...children);
+const option = (value, text = value) => Object.assign(element('option', '', text), {value});
 const byId = (id) => document.getElementById(id);
 const theme = () => (dark.matches && !paper.matches ? 'dark' : 'light');
 
@@ -78,11 +87,9 @@ function breakable(method) {
 
 /** A row of radio buttons that looks like one segmented control; `chosen` at first. */
 function segments(id, choices, chosen, onChange) {
-  for (const choice of choices) {
-    const input = element('input');
-    Object.assign(input, {type: 'radio', name: id, value: choice.value, checked: choice.value === chosen});
-    input.addEventListener('change', () => onChange(choice.value));
-    byId(id).append(element('label', '', input, element('span', '', choice.text)));
+  for (const {value, text} of choices) {
+    const input = control('input', {type: 'radio', name: id, value, checked: value === chosen}, () => onChange(value));
+    byId(id).append(element('label', '', input, element('span', '', text)));
   }
 }
 
@@ -159,16 +166,12 @@ function ledeText() {
 }
 
 function thumb(image, isReference, lines) {
-  const button = element('button', 'thumb', element('div', 'picture', picture(image.png, image.name)),
-    element('strong', '', ...(isReference ? [] : [key(image.name)]), ...breakable(image.name)),
-    ...lines.map((text) => element('span', '', text)));
-  button.type = 'button';
-  button.title = 'Compare this image';
-  button.addEventListener('click', () => {
+  return button({className: 'thumb', title: 'Compare this image'}, () => {
     choose('b', image.name);
     byId('comparator').scrollIntoView({block: 'start'});
-  });
-  return button;
+  }, element('div', 'picture', picture(image.png, image.name)),
+  element('strong', '', ...(isReference ? [] : [key(image.name)]), ...breakable(image.name)),
+  ...lines.map((text) => element('span', '', text)));
 }
 
 /** The images that the answer names, with error and cost. */
@@ -213,7 +216,7 @@ function showProvenance() {
 // ---- sections that the data bring along
 
 function tableOf({columns: heads, rows}, marked) {
-  const kind = (i) => (heads[i].words ? 'words-column' : '');
+  const kind = (i) => (heads[i].numeric ? '' : 'words-column');
   return element('div', 'scroll', element('table', 'few',
     element('thead', '', element('tr', '', ...heads.map(({title}, i) => element('th', kind(i), title)))),
     element('tbody', '', ...rows.map((row, j) => element('tr', j === marked ? 'chosen-row' : '',
@@ -221,14 +224,11 @@ function tableOf({columns: heads, rows}, marked) {
 }
 
 function commandBox(text) {
-  const button = element('button', '', 'Copy');
-  button.type = 'button';
   const box = element('pre', 'scroll', text);
-  button.addEventListener('click', () => {
+  return element('div', 'command', box, button({}, (node) => {
     getSelection().selectAllChildren(box);
-    button.textContent = document.execCommand('copy') ? 'Copied' : 'Press Ctrl+C';  // pages from disk have no clipboard
-  });
-  return element('div', 'command', box, button);
+    node.textContent = document.execCommand('copy') ? 'Copied' : 'Press Ctrl+C';  // pages from disk have no clipboard
+  }, 'Copy'));
 }
 
 function showSections() {
@@ -346,21 +346,16 @@ function showAll() {
 
 function axisSelect(axis) {
   const values = [...new Set(runs.map((run) => run.coordinates[axis]))];
-  const options = values.map((value) => Object.assign(element('option', '', value), {value}));
-  const select = element('select', '', Object.assign(element('option', '', 'all'), {value: ''}), ...options);
-  select.name = axis;
-  select.addEventListener('change', () => change({place: {...state.place, [axis]: select.value || undefined}}));
-  return element('label', 'axis', `${axis} `, select);
+  return element('label', 'axis', `${axis} `, control('select', {name: axis},
+    ({value}) => change({place: {...state.place, [axis]: value || undefined}}), option('', 'all'), ...values.map((value) => option(value))));
 }
 
 function methodBox(method) {
-  const input = Object.assign(element('input'), {type: 'checkbox', value: method});
-  input.addEventListener('change', () => {
+  return element('label', '', control('input', {type: 'checkbox', value: method}, ({checked}) => {
     const hidden = new Set(state.hidden);
-    if (input.checked) hidden.delete(method); else hidden.add(method);
+    if (checked) hidden.delete(method); else hidden.add(method);
     change({hidden});
-  });
-  return element('label', '', input, key(method), method);
+  }), key(method), method);
 }
 
 /** All that is drawn in a method's colour, or in the page's. */
@@ -378,7 +373,7 @@ function startRuns() {
     (distance) => change({distance}));
   for (const [id, name] of [['all-distances', 'all'], ['all-columns', 'columns']])
     byId(id).addEventListener('change', (event) => change({[name]: event.target.checked}));
-  byId('cost').append(...costKinds().map((gpu) => Object.assign(element('option', '', gpu || 'frame time'), {value: gpu})));
+  byId('cost').append(...costKinds().map((gpu) => option(gpu, gpu || 'frame time')));
   byId('cost-tool').hidden = costKinds().length < 2;
   byId('cost').addEventListener('change', (event) => change({cost: event.target.value}));
   for (const {title, meaning} of listed().filter(isUsed)) byId('meanings').append(element('dt', '', title), element('dd', '', meaning));

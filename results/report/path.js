@@ -57,21 +57,11 @@ const frameLine = {
   },
 };
 
-const pathSeries = (label, values, tint, dash = []) => ({
-  label,
-  data: values.map((y, x) => ({x, y: Number.isFinite(y) ? y : NaN})),
-  borderColor: tint,
-  backgroundColor: tint,
-  borderWidth: 2,
-  borderDash: dash,
-  pointRadius: 0,
-  pointHitRadius: 8,
-  showLine: true,
-  pointStyle: 'line',
-});
+const pathSeries = (label, values, tint, dash = []) =>
+  lineSeries(label, values.map((y, x) => ({x, y: Number.isFinite(y) ? y : NaN})), tint,
+    {borderWidth: 2, borderDash: dash, pointHitRadius: 8});
 
 function drawLines(id, title, datasets) {
-  Chart.getChart(id)?.destroy();
   const axis = linearAxis('Frame');
   drawChart(id, datasets, {
     x: {...axis, min: 0, max: viewCount() - 1, ticks: {...axis.ticks, precision: 0}},

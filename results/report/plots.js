@@ -106,54 +106,35 @@ function methodSeries(method, own) {
   };
 }
 
+/** A line without marks. */
+const lineSeries = (label, data, color, own) => ({
+  label,
+  data,
+  showLine: true,
+  borderColor: color,
+  backgroundColor: color,
+  borderWidth: 1.5,
+  pointRadius: 0,
+  pointHitRadius: 0,
+  pointStyle: 'line',
+  ...own,
+});
+
 /** The methods of one member that none is both faster and closer than: each left of them costs error, each below time. */
 function frontSeries(own) {
   let least = Infinity;
   const front = [...own].sort((a, b) => costOf(a) - costOf(b) || plotted(a.error) - plotted(b.error))
     .filter((r) => plotted(r.error) < least && ((least = plotted(r.error)), true));
-  return {
-    label: 'Pareto front',
-    data: front.map((r) => ({x: costOf(r), y: plotted(r.error)})),
-    showLine: true,
-    stepped: 'before',
-    borderColor: styleValue('--ink'),
-    borderWidth: 1.5,
-    borderDash: [2, 3],
-    pointRadius: 0,
-    pointHitRadius: 0,
-    pointStyle: 'line',
-  };
+  return lineSeries('Pareto front', front.map((r) => ({x: costOf(r), y: plotted(r.error)})), styleValue('--ink'),
+    {stepped: 'before', borderDash: [2, 3]});
 }
 
-function curveSeries(points) {
-  return {
-    label: 'plain supersampling',
-    data: points.map((point) => ({x: point.ms, y: plotted(point)})),
-    counts: points.map((point) => point.spp),
-    names: points.map((point) => `${point.spp} spp`),
-    isQuiet: true,
-    showLine: true,
-    borderColor: styleValue('--muted'),
-    backgroundColor: styleValue('--muted'),
-    borderWidth: 1.5,
-    pointRadius: 3,
-    pointStyle: 'circle',
-  };
-}
+const curveSeries = (points) => lineSeries('plain supersampling', points.map((point) => ({x: point.ms, y: plotted(point)})),
+  styleValue('--muted'), {counts: points.map(({spp}) => spp), names: points.map(({spp}) => `${spp} spp`), isQuiet: true,
+    pointRadius: 3, pointHitRadius: 1, pointStyle: 'circle'});
 
-function floorSeries(height, range) {
-  return {
-    label: 'noise floor',
-    data: [{x: range.min, y: height}, {x: range.max, y: height}],
-    showLine: true,
-    borderColor: styleValue('--warn'),
-    borderDash: [6, 5],
-    borderWidth: 1.5,
-    pointRadius: 0,
-    pointHitRadius: 0,
-    pointStyle: 'line',
-  };
-}
+/** A dashed line between two points. */
+const limitSeries = (label, data) => lineSeries(label, data, styleValue('--warn'), {borderDash: [6, 5]});
 
 /** A logarithmic range with room for marks and labels. */
 function padded(values, below, above) {
@@ -201,6 +182,7 @@ function legend(width) {
 
 /** Draws a chart of points and lines; `label` makes the text of a point. */
 function drawChart(id, datasets, scales, label, {legendWidth = 9, displayColors = false, plugins = [], ...options} = {}) {
+  Chart.getChart(id)?.destroy();
   new Chart(id, {
     type: 'scatter',
     data: {datasets},
@@ -242,7 +224,6 @@ function plotContent() {
 }
 
 function showPlot() {
-  Chart.getChart('plot')?.destroy();
   const {drawn, curve, further, floor, missing} = plotContent();
   byId('plot-note').textContent = missing.length
     ? `Not shown, because the logarithmic axis cannot show an error of 0 or none: ${
@@ -259,7 +240,7 @@ function showPlot() {
   const datasets = methods.map((method) => [method, drawn.filter((r) => r.method === method)])
     .filter(([, own]) => own.length > 0).map(([method, own]) => methodSeries(method, own));
   if (curve.length) datasets.push(curveSeries(curve));
-  if (isNear) datasets.push(floorSeries(floor, x));
+  if (isNear) datasets.push(limitSeries('noise floor', [{x: x.min, y: floor}, {x: x.max, y: floor}]));
   const members = [...new Set(drawn.map((r) => r.run))];
   if (members.length <= mostFronts) datasets.push(...members.map((run) => frontSeries(drawn.filter((r) => r.run === run))));
   const lines = ['↙ better'];
@@ -291,7 +272,6 @@ function trendText(item) {
 }
 
 function showTrend(id, title, value) {
-  Chart.getChart(id)?.destroy();
   const datasets = methods.map((method) => trendSeries(method, value)).filter((set) => set.data.length > 0);
   const points = datasets.flatMap((set) => set.data);
   const isThere = new Set(points.map((point) => point.x)).size > 1;
@@ -315,19 +295,8 @@ function showTrends() {
 /** A histogram as the line of its shares; a bin without pixels is drawn as half a pixel, at the axis' foot. */
 function histogramSeries(label, counts, color, dash) {
   const pixels = counts.reduce((sum, count) => sum + count, 0);
-  return {
-    label,
-    data: counts.map((count, i) => ({x: (i + 0.5) / counts.length, y: Math.max(count, 0.5) / pixels, count})),
-    stepped: 'middle',
-    showLine: true,
-    borderColor: color,
-    backgroundColor: color,
-    borderWidth: 2,
-    borderDash: dash,
-    pointRadius: 0,
-    pointHitRadius: 6,
-    pointStyle: 'line',
-  };
+  return lineSeries(label, counts.map((count, i) => ({x: (i + 0.5) / counts.length, y: Math.max(count, 0.5) / pixels, count})), color,
+    {stepped: 'middle', borderWidth: 2, borderDash: dash, pointHitRadius: 6});
 }
 
 function sparkleText(item) {
@@ -336,7 +305,6 @@ function sparkleText(item) {
 }
 
 function showSparkle() {
-  Chart.getChart('sparkle')?.destroy();
   const counted = shown().filter((record) => record.error);
   byId('sparkle-section').hidden = counted.length === 0;
   if (counted.length === 0) return;
@@ -357,13 +325,12 @@ function showCandidates(canvas, {title, points, most_x: mostX, most_y: mostY}) {
   const series = (label, own, color, radius, pointStyle) => ({label, data: own, borderColor: color, backgroundColor: color,
     pointRadius: radius, pointHoverRadius: radius + 2, pointStyle, names: label === 'others' ? undefined : own.map(({name}) => name),
     whiskers: own.map(({low, high}) => [Math.max(low, x.min), Math.min(high, x.max)])});
-  const line = (label, data) => ({...floorSeries(0, x), label, data});
   const datasets = [series('chosen', there.filter((p) => p.chosen), styleValue('--warn'), 8, 'rectRot'),
     series('front', there.filter((p) => !p.chosen && isFront(p)), styleValue('--accent'), 5, 'circle'),
     series('others', there.filter((p) => !p.chosen && !isFront(p)), styleValue('--muted'), 4, 'triangle')]
     .filter(({data: own}) => own.length);
-  if (mostY > y.min && mostY < y.max) datasets.push(line('limit', [{x: x.min, y: mostY}, {x: x.max, y: mostY}]));
-  if (mostX > x.min && mostX < x.max) datasets.push(line('limit', [{x: mostX, y: y.min}, {x: mostX, y: y.max}]));
+  if (mostY > y.min && mostY < y.max) datasets.push(limitSeries('limit', [{x: x.min, y: mostY}, {x: x.max, y: mostY}]));
+  if (mostX > x.min && mostX < x.max) datasets.push(limitSeries('limit', [{x: mostX, y: y.min}, {x: mostX, y: y.max}]));
   drawChart(canvas, datasets, {x: logAxis(title, x), y: logAxis('Error', y)},
     ({raw}) => `${raw.name}: error ${figure(raw.y)} at ${figure(raw.x)} times direct`,
     {plugins: [whiskers, pointLabels, corner], corner: ['↙ better']});

@@ -134,19 +134,18 @@ std::string what_better_costs(const MaterialAdvice& advice) {
 }
 
 PagePlot plot_of(const MaterialAdvice& advice, const Limits& limits) {
-  PagePlot plot{
-      .cost_title = limits.gpu.empty() ? "Frame time relative to direct" : "Estimated cost relative to direct",
-      .points = {},
-      .most_cost = limits.max_cost,
-      .most_error = limits.max_error};
+  PagePlot plot{.title = limits.gpu.empty() ? "Frame time relative to direct" : "Estimated cost relative to direct",
+                .points = {},
+                .most_x = limits.max_cost,
+                .most_y = limits.max_error};
   for (std::size_t i = 0; i < advice.candidates.size(); ++i) {
     const Candidate& c = advice.candidates[i];
     plot.points.push_back({.name = fmt::format("{} · {}", c.method, c.footprint),
-                           .cost = c.cost.median,
+                           .x = c.cost.median,
                            .low = c.cost.low,
                            .high = c.cost.high,
-                           .error = c.error,
-                           .is_chosen = advice.choice.chosen == i});
+                           .y = c.error,
+                           .chosen = advice.choice.chosen == i});
   }
   return plot;
 }
@@ -170,7 +169,7 @@ PageSection section_of(const MaterialAdvice& advice, const Limits& limits) {
           .command = advice.command,
           .plot = plot_of(advice, limits),
           .table = table_of(advice),
-          .marked_row = advice.choice.chosen};
+          .marked = advice.choice.chosen};
 }
 
 std::string with_end(const std::string& exr, const char* end) { return exr.substr(0, exr.rfind('.')) + end; }

@@ -1,4 +1,5 @@
-// The measurements of a run as plain values: the content of results.json (results.md), free of GL and of files.
+// The measurements of a run as plain values: the content of results.json (results.md), free of GL and of files. Members
+// have the names and the order of the fields there, but for the structures of record_fields.hpp.
 #pragma once
 
 #include <array>
@@ -12,7 +13,6 @@
 
 #include "renderer/core/gpu_cost.hpp"
 #include "renderer/core/names.hpp"
-#include "results/report/experiment_report.hpp"
 
 namespace footprint {
 
@@ -44,7 +44,7 @@ constexpr const auto& words_of(BuildTiming /*timing*/) { return build_timing_wor
 
 /// Median with its spread over the repeats of one run.
 struct FrameTime {
-  double median = 0, minimum = 0, p90 = 0;  ///< milliseconds
+  double median = 0, min = 0, p90 = 0;  ///< milliseconds
 };
 
 /// Frame time over `direct`'s, pair by pair: the median, and the 95% interval of that median (median_interval).
@@ -232,6 +232,109 @@ struct QuantityFigure {
   double value = 0;
 };
 
+/// The verdict on a claim, measured or expected.
+enum class Verdict {
+  reproduced,
+  not_reproduced,
+  undecided  ///< a figure is missing; never expected
+};
+
+/// As reports write it.
+inline constexpr std::array<Word<Verdict>, 3> verdict_words{{
+    {Verdict::reproduced, "reproduced"},
+    {Verdict::not_reproduced, "not_reproduced"},
+    {Verdict::undecided, "undecided"},
+}};
+constexpr const auto& words_of(Verdict /*verdict*/) { return verdict_words; }
+
+/// Whose statement a claim is. Only a paper's own count as reproduced or not; the others are counted apart.
+enum class ClaimSource {
+  paper,        ///< the paper says or shows it
+  gpu_time,     ///< the paper says it of times on a GPU, which frames of a software renderer cannot decide
+  closed_form,  ///< a formula of the paper, evaluated
+  our_measure,  ///< the paper says it, but the measure, the setting or the limit is our choice
+  ours          ///< no paper says it
+};
+
+/// As experiment files and reports write it, the paper's own first.
+inline constexpr std::array<Word<ClaimSource>, 5> claim_source_words{{
+    {ClaimSource::paper, "paper"},
+    {ClaimSource::gpu_time, "gpu_time"},
+    {ClaimSource::closed_form, "closed_form"},
+    {ClaimSource::our_measure, "our_measure"},
+    {ClaimSource::ours, "ours"},
+}};
+constexpr const auto& words_of(ClaimSource /*source*/) { return claim_source_words; }
+
+/// A figure that a paper prints, and the one that was measured.
+struct PublishedFigure {
+  std::string figure;   ///< where it is printed: "Figure 4"
+  std::string measure;  ///< the expression that was measured: "error(tan_gmm, spp=16)"
+  std::string unit;     ///< "fps", "s"; empty for errors and ratios
+  double published = 0;
+  std::optional<double> measured;
+  std::string note;  ///< how the paper measured, or why it is not measured here
+};
+
+/// A figure that a claim was decided by.
+struct ClaimFigure {
+  std::string measure;
+  double value = 0;
+  bool at_noise_floor = false;  ///< an error that the reference's own noise explains
+};
+
+/// The outcome of a claim.
+struct ClaimOutcome {
+  std::string name, text;
+  ClaimSource source = ClaimSource::ours;
+  std::string inequality;
+  Verdict expect = Verdict::reproduced;
+  Verdict outcome = Verdict::undecided;
+  std::string reason;   ///< why that is expected
+  std::string problem;  ///< of an undecided one
+  std::optional<double> left, right;
+  std::vector<ClaimFigure> figures;
+  std::string place{};  ///< FILE:LINE of the claim
+
+  [[nodiscard]] bool as_expected() const { return outcome == expect; }
+};
+
+/// A claim over times, decided by estimated cost in place of measured times (gpu-cost.md). It is never expected or
+/// counted with the claims.
+struct SecondVerdict {
+  std::string claim;  ///< its name
+  std::string gpu;
+  std::optional<double> left, right;
+  Verdict outcome = Verdict::undecided;
+  std::string problem;  ///< of an undecided one
+};
+
+/// An upper bound and what was measured.
+struct ThresholdOutcome {
+  std::string measure;
+  double limit = 0;
+  std::optional<double> measured;
+  std::string problem;  ///< why it was not measured, or empty
+  std::string place{};  ///< FILE:LINE of the threshold
+
+  [[nodiscard]] bool passed() const { return measured && *measured <= limit; }
+};
+
+/// The part of results.json that an experiment adds.
+struct ExperimentReport {
+  std::string name, title, description;
+  std::string file;    ///< the TOML, as given
+  bool quick = false;  ///< smaller than the file says: the figures are no measurement
+  std::vector<PublishedFigure> published;
+  std::vector<ClaimOutcome> claims;
+  std::vector<SecondVerdict> second_verdicts;
+  std::vector<ThresholdOutcome> thresholds;
+  std::vector<std::string> pictures;  ///< composed figures, paths from the output folder
+
+  /// Claims and thresholds that did not come out as they should, one line each.
+  [[nodiscard]] std::vector<std::string> shortfalls() const;
+};
+
 struct ToolInfo {
   std::string name = "footprint";
   std::string version;
@@ -259,9 +362,9 @@ struct ReferenceInfo {
   std::uint64_t seed = 0;
   /// In each view: root mean square of the per-pixel standard error over mean radiance; none: unknown.
   std::vector<std::optional<double>> standard_errors = {};
-  std::optional<std::string> environment = {};  ///< sampled or dense; none: the scene has no environment
   double samples = 0;  ///< mean samples per pixel over all distances: `spp`, and more if the noise needs them
   double seconds = 0;  ///< that its pictures took, all distances together
+  std::optional<std::string> environment = {};  ///< sampled or dense; none: the scene has no environment
 };
 
 /// The repeats behind the medians of frame times.

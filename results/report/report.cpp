@@ -1,4 +1,5 @@
-// results.json as the document of docs/results.schema.json, the four files of a run, and the files of an earlier one.
+// The files of a run and of a matrix: results.json, results.csv, table.md, and the page with its data; the files of an
+// earlier run.
 #include "results/report/report.hpp"
 
 #include <fmt/format.h>
@@ -8,12 +9,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "renderer/core/files.hpp"
-#include "results/report/columns.hpp"
+#include "results/report/command_reports.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {
@@ -65,16 +69,15 @@ std::vector<std::string> table_row(const MatrixMember& member, const Record& rec
 }
 
 std::string records_table(const MatrixResults& matrix) {
-  std::vector<MarkdownColumn> columns;
-  for (const auto& [axis, value] : matrix.members.front().results.coordinates) columns.push_back({axis, false});
-  columns.push_back({"Method", false});
+  Table table;
+  for (const auto& [axis, value] : matrix.members.front().results.coordinates) table.columns.push_back({axis, false});
+  table.columns.push_back({"Method", false});
   for (const char* title : {"Distance", "Error", "Shading", "Floor", "Frame ms", "x direct"})
-    columns.push_back({title});
-  std::vector<std::vector<std::string>> rows;
+    table.columns.push_back({title});
   for (const MatrixMember& member : matrix.members) {
-    for (const Record& record : member.results.records) rows.push_back(table_row(member, record));
+    for (const Record& record : member.results.records) table.rows.push_back(table_row(member, record));
   }
-  return markdown_table(columns, rows);
+  return markdown_table(table);
 }
 
 // The lines of the members' results.csv, each after its member's name, footprint filter and seed.
@@ -88,17 +91,110 @@ std::string matrix_csv(const MatrixResults& matrix) {
   return csv;
 }
 
+using Json = nlohmann::ordered_json;
+
+/// Whether the record's frames are shorter than all others of its distance, for any spread.
+bool is_fastest(const Record& record, const DistanceRecords& records) {
+  return records.size() > 1 && std::ranges::all_of(records, [&](const Record& other) {
+           return &other == &record || record.frame_ms.p90 < other.frame_ms.min;
+         });
+}
+
+/// Whether the record alone is first in its distance's ranking.
+bool is_best(const Record& record, const DistanceRecords& records) {
+  const auto is_first = [&](const Record& r) { return rank(r, records) == 1; };
+  return records.size() > 1 && is_first(record) && std::ranges::count_if(records, is_first) == 1;
+}
+
+/// The columns of the page's table, in order.
+std::vector<std::string_view> page_columns() {
+  std::vector<std::string_view> keys{"distance"};
+  keys.insert(keys.end(), error_columns.begin(), error_columns.end());
+  keys.emplace_back("flicker");
+  keys.insert(keys.end(), time_columns.begin(), time_columns.end());
+  for (const char* key :
+       {"frame_build_ms", "precompute_s", "precompute_bytes", "precompute_bytes_per_texel", "effects_left_out"})
+    keys.emplace_back(key);
+  return keys;
+}
+
+Json columns_json() {
+  Json columns = Json::array();
+  for (const std::string_view key : page_columns()) {
+    const Column& column = column_of(key);
+    columns.push_back({{"key", column.key},
+                       {"place", column.place},
+                       {"title", column.title},
+                       {"meaning", column.meaning},
+                       {"words", column.is_words}});
+  }
+  return columns;
+}
+
+/// A record's figures as the page prints them, the same as in the table.
+/// json: the record as results.json has it.
+Json display(const Results& results, const Record& record, const Json& json) {
+  const DistanceRecords records = records_at(results, record.distance);
+  const std::optional<int> place = rank(record, records);
+  Json cells{{"rank", place ? fmt::format("{}", *place) : "–"},
+             {"change", change_from_direct(results, record)},
+             {"at_floor", shading_at_noise_floor(record)},
+             {"is_best", is_best(record, records)},
+             {"is_fastest", is_fastest(record, records)}};
+  for (const std::string_view key : page_columns()) {
+    const Column& column = column_of(key);
+    if (column.format != nullptr) cells[std::string(key)] = cell_text(column, record, json);
+  }
+  return cells;
+}
+
+/// The answer and the findings at a distance, and the scale of its error images.
+Json distance_json(const Results& results, double distance) {
+  const auto scale = std::ranges::find(results.error_scales, distance, &ErrorScale::distance);
+  const double top = scale == results.error_scales.end() ? results.error_scale : scale->error;
+  const DistanceAnswer answer = answer_at(results, distance);
+  return {{"distance", distance},
+          {"answer", answer.sentences},
+          {"shown", answer.methods},
+          {"pixels", pixels_and_noise(records_at(results, distance).front())},
+          {"findings", findings(results, distance)},
+          {"scale_top", error_text(top)}};
+}
+
+// The content of the page for a run; `folder` is that of its images, below the page's own.
+Json run_json(const Results& results, const std::string& folder) {
+  Json document = to_json_value(results);
+  Json records = Json::array(), distances = Json::array();
+  if (!results.way) {
+    for (std::size_t i = 0; i < results.records.size(); ++i) {
+      const Record& record = results.records[i];
+      records.push_back(display(results, record, document.at("records").at(i)));
+    }
+    for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
+  }
+  return {{"folder", folder},
+          {"path", results.way ? path_words(results) : ""},
+          {"coordinates", to_json_value(results.coordinates)},
+          {"results", std::move(document)},
+          {"provenance", to_json_value(provenance(results))},
+          {"display", std::move(records)},
+          {"distances", std::move(distances)},
+          {"scale_top", error_text(results.error_scale)}};
+}
+
+// The page of runs: its scripts make views of their records.
+std::string page_of(Page page, Json runs) {
+  page.eyebrow = "error, cost and memory of normal map filtering";
+  return page_html(page, Json{{"runs", std::move(runs)}, {"columns", columns_json()}});
+}
+
 }  // namespace
-
-nlohmann::ordered_json json_number(const std::optional<double>& value) { return to_json_value(value); }
-
-nlohmann::ordered_json results_document(const Results& results) { return to_json_value(results); }
 
 std::string json_text(const nlohmann::ordered_json& document, int indent) {
   return document.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-std::string results_json(const Results& results) { return json_text(results_document(results), 2) + "\n"; }
+std::string results_json(const Results& results) { return json_text(to_json_value(results), 2) + "\n"; }
 
 void write_report(const Results& results, const std::filesystem::path& folder) {
   write_file_atomically(folder / "results.json", results_json(results));
@@ -156,6 +252,25 @@ void write_matrix_report(const MatrixResults& matrix, const std::filesystem::pat
   write_file_atomically(folder / "results.csv", matrix_csv(matrix));
   write_file_atomically(folder / "table.md", matrix_table(matrix));
   write_file_atomically(folder / "index.html", matrix_page(matrix));
+}
+
+std::string results_page(const Results& results) {
+  Json runs = Json::array();
+  runs.push_back(run_json(results, ""));
+  return page_of({.title = results.scene.name,
+                  .text = results_table(results),
+                  .exposure = results.scene.exposure,
+                  .experiment = results.experiment ? experiment_html(*results.experiment) : "",
+                  .gpus = gpu_costs_html(results)},
+                 std::move(runs));
+}
+
+std::string matrix_page(const MatrixResults& matrix) {
+  Json runs = Json::array();
+  for (const auto& [folder, results] : matrix.members) runs.push_back(run_json(results, folder));
+  return page_of(
+      {.title = matrix.report.title, .text = matrix_table(matrix), .experiment = experiment_html(matrix.report)},
+      std::move(runs));
 }
 
 }  // namespace footprint

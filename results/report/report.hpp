@@ -16,7 +16,7 @@ namespace footprint {
 /// infinities and absent figures as null.
 [[nodiscard]] std::string results_json(const Results& results);
 
-/// One line per record, RFC 4180; the header names every column (columns.hpp).
+/// One line per record, RFC 4180; the header names every column (figures.hpp).
 [[nodiscard]] std::string results_csv(const Results& results);
 
 /// The error and fps table in Markdown, aligned so that it also reads well in a terminal.
@@ -43,12 +43,6 @@ void write_report(const Results& results, const std::filesystem::path& folder);
 
 /// The value of `"schema"` in every results.json that this version writes.
 inline constexpr const char* results_schema = "footprint-results/2";
-
-/// The document of docs/results.schema.json, keys in its order; NaN, infinities and absent figures are null.
-[[nodiscard]] nlohmann::ordered_json results_document(const Results& results);
-
-/// A number; null if it is absent or not finite.
-[[nodiscard]] nlohmann::ordered_json json_number(const std::optional<double>& value);
 
 /// JSON text; bytes that are not UTF-8 become U+FFFD.
 /// indent: spaces per level, or -1 for one line.

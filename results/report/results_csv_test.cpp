@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "results/report/columns.hpp"
+#include "results/report/figures.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 #include "tests/report/example_results.hpp"

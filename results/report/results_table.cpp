@@ -6,14 +6,14 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <span>
 #include <sstream>
 #include <string_view>
 
-#include "results/report/columns.hpp"
+#include "results/report/command_reports.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/gpu_cost_report.hpp"
 #include "results/report/page.hpp"
 #include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
@@ -21,8 +21,6 @@
 
 namespace footprint {
 namespace {
-
-using Rows = std::vector<std::vector<std::string>>;
 
 /// "2", or "-" where the record is not ranked; `ties` pads for the mark of those that share a place.
 std::string rank_text(const Record& record, const DistanceRecords& records) {
@@ -43,16 +41,11 @@ bool has_light(const DistanceRecords& records) {
   return std::ranges::any_of(records, [](const Record& r) { return r.error && r.error->causes.light; });
 }
 
-struct Table {
-  std::vector<MarkdownColumn> columns;
-  Rows rows;
-};
-
 /// "Method", then the columns of the keys; the light's only if there is one. Ranks and shading errors have marks.
 Table table_of(std::vector<std::string_view> keys, const DistanceRecords& records) {
   if (!has_light(records)) std::erase(keys, "light_error");
   const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
-  Table table{.columns = {{"Method", false}}, .rows = {}};
+  Table table{.heading = {}, .columns = {{"Method", false}}, .rows = {}};
   for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
   for (const Record& record : records) {
     const nlohmann::ordered_json json = to_json_value(record);
@@ -70,20 +63,20 @@ constexpr std::size_t terminal = 130;  // columns
 
 /// One table, or as many as it takes that none is wider than a terminal; each begins with the first column.
 std::string split_table(const Table& table) {
-  const auto& [columns, rows] = table;
+  const std::size_t all = table.columns.size();
   const auto part = [&](std::size_t first, std::size_t count) {
-    const auto cut = [&](const auto& all) {
-      auto some = std::vector(all.begin(), all.begin() + 1);
-      some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(first),
-                  all.begin() + static_cast<std::ptrdiff_t>(first + count));
-      return some;
+    Table some = table;
+    const auto cut = [&](auto& cells) {
+      const auto begin = cells.begin() + static_cast<std::ptrdiff_t>(first);
+      cells.erase(begin + static_cast<std::ptrdiff_t>(count), cells.end());
+      cells.erase(cells.begin() + 1, begin);
     };
-    Rows cut_rows;
-    for (const auto& row : rows) cut_rows.push_back(cut(row));
-    return markdown_table(cut(columns), cut_rows);
+    cut(some.columns);
+    std::ranges::for_each(some.rows, cut);
+    return markdown_table(some);
   };
   std::string text;
-  for (std::size_t first = 1, count = columns.size() - 1; first < columns.size(); count = columns.size() - first) {
+  for (std::size_t first = 1, count = all - 1; first < all; count = all - first) {
     while (count > 1 && part(first, count).find('\n') > terminal) --count;
     text += (text.empty() ? "" : "\n") + part(first, count);
     first += count;
@@ -97,27 +90,25 @@ std::string main_table(const DistanceRecords& records) {
   std::vector<std::string_view> all = errors;
   all.insert(all.end(), times.begin(), times.end());
   const Table whole = table_of(all, records);
-  std::string text = markdown_table(whole.columns, whole.rows);
+  std::string text = markdown_table(whole);
   if (text.find('\n') <= terminal) return text;
   return split_table(table_of(errors, records)) + "\n" + split_table(table_of(times, records));
 }
 
 /// Every two methods of a distance pixel by pixel: empty where none were.
 std::string pairs_table(const Results& results, const DistanceRecords& records) {
-  std::vector<MarkdownColumn> columns{{"% of pixels closer than", false}};
-  Rows rows;
+  Table table{.heading = {}, .columns = {{"% of pixels closer than", false}}, .rows = {}};
   bool any = false;
   for (const Record& record : records) {
-    columns.push_back({markdown_escaped(record.method)});
-    std::vector<std::string> row{record.method};
+    table.columns.push_back({markdown_escaped(record.method)});
+    std::vector<std::string>& row = table.rows.emplace_back(1, record.method);
     for (const Record& other : records) {
       const auto share = closer_share(results, record.distance, record.method, other.method);
       any = any || share;
       row.push_back(share ? fmt::format("{:.1f}", 100.0 * *share) : "-");
     }
-    rows.push_back(std::move(row));
   }
-  return any ? "\n" + split_table({columns, rows}) : std::string();
+  return any ? "\n" + split_table(table) : std::string();
 }
 
 /// An entry of a list, escaped, in lines of a terminal's width.
@@ -146,91 +137,87 @@ std::string distance_section(const Results& results, double distance) {
 /// The figures that do not depend on the distance: one line per method, more only if its figures differ.
 std::string preparation_section(const Results& results) {
   constexpr std::array<std::string_view, 3> keys{"precompute_s", "precompute_bytes", "precompute_bytes_per_texel"};
-  std::vector<MarkdownColumn> columns{{"Method", false}};
-  for (const std::string_view key : keys) columns.push_back({plain(column_of(key).title)});
-  columns.insert(columns.end(), {{"Cached", false}, {"Effects left out", false}});
-  Rows rows;
+  Table table{.heading = "Bakes", .columns = {{"Method", false}}, .rows = {}};
+  for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
+  table.columns.insert(table.columns.end(), {{"Cached", false}, {"Effects left out", false}});
   for (const Record& record : results.records) {
     const nlohmann::ordered_json json = to_json_value(record);
     std::vector<std::string> row{record.method};
     for (const std::string_view key : keys) row.push_back(plain(cell_text(column_of(key), record, json)));
     row.insert(row.end(), {record.precompute_cached ? "yes" : "no", list_text(record.effects_left_out, "none")});
-    if (std::ranges::find(rows, row) == rows.end()) rows.push_back(std::move(row));
+    if (std::ranges::find(table.rows, row) == table.rows.end()) table.rows.push_back(std::move(row));
   }
-  return "\n## Bakes\n\n" + markdown_table(columns, rows);
+  return markdown_section(table);
 }
 
 /// Flicker between the frames of a zoom.
 std::string flicker_section(const Results& results) {
-  Rows rows;
+  Table table{.heading = "Flicker",
+              .columns = {{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}},
+              .rows = {}};
   for (const Record& record : results.records) {
     if (!record.flicker) continue;
     const Flicker& flicker = *record.flicker;
-    rows.push_back({fmt::format("{}", record.frame), record.method, error_text(flicker.mean), error_text(flicker.p99),
-                    flicker.noise_floor ? error_text(*flicker.noise_floor) : "n/a"});
+    table.rows.push_back({fmt::format("{}", record.frame), record.method, error_text(flicker.mean),
+                          error_text(flicker.p99), error_text(flicker.noise_floor)});
   }
-  if (rows.empty()) return {};
-  return "\n## Flicker\n\n" +
-         markdown_table({{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}, rows);
+  return markdown_section(table);
 }
 
 /// Effective NDFs of the footprints that were looked into.
 std::string ndf_section(const Results& results) {
-  if (results.ndf.empty()) return {};
-  Rows rows;
+  Table table{.heading = "Effective NDFs",
+              .columns = {{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}},
+              .rows = {}};
   for (const FootprintNdf& figures : results.ndf) {
-    rows.push_back({figures.footprint, figures.method, three_figures(figures.l2), three_figures(figures.energy),
-                    three_figures(figures.peak), fmt::format("{}", figures.lobes)});
+    table.rows.push_back({figures.footprint, figures.method, three_figures(figures.l2), three_figures(figures.energy),
+                          three_figures(figures.peak), fmt::format("{}", figures.lobes)});
   }
-  return "\n## Effective NDFs\n\n" +
-         markdown_table({{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}}, rows);
+  return markdown_section(table);
 }
 
 /// Figures that no picture shows.
 std::string quantity_section(const Results& results) {
-  if (results.quantities.empty()) return {};
-  Rows rows;
-  for (const QuantityFigure& figure : results.quantities) {
-    rows.push_back({figure.name, figure.method, figure.quantity, fmt::format("{:.3g}", figure.value)});
-  }
-  return "\n## Other quantities\n\n" +
-         markdown_table({{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}}, rows);
+  Table table{.heading = "Other quantities",
+              .columns = {{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}},
+              .rows = {}};
+  for (const QuantityFigure& figure : results.quantities)
+    table.rows.push_back({figure.name, figure.method, figure.quantity, fmt::format("{:.3g}", figure.value)});
+  return markdown_section(table);
 }
 
 /// Frame builds of methods that have one: they are part of the cost at that distance.
 std::string frame_build_section(const Results& results) {
-  Rows rows;
+  Table table{.heading = "Frame build",
+              .columns = {{"Method", false}, {"Distance"}, {"Frame build ms"}, {"In frame ms", false}},
+              .rows = {}};
   for (const Record& record : results.records) {
     if (!record.frame_build) continue;
-    rows.push_back({record.method, fmt::format("{}", record.distance), three_figures(record.frame_build_ms.value_or(0)),
-                    std::string(word_for(build_timing_words, *record.frame_build))});
+    table.rows.push_back({record.method, fmt::format("{}", record.distance),
+                          three_figures(record.frame_build_ms.value_or(0)),
+                          std::string(word_for(build_timing_words, *record.frame_build))});
   }
-  if (rows.empty()) return {};
-  return "\n## Frame build\n\n" +
-         markdown_table({{"Method", false}, {"Distance"}, {"Frame build ms"}, {"In frame ms", false}}, rows);
+  return markdown_section(table);
 }
 
 /// A few distances of the supersampling curve side by side.
 std::string curve_table(const Results& results, std::span<const double> distances) {
-  std::vector<MarkdownColumn> columns{{"spp"}};
-  for (const double distance : distances) {
-    columns.push_back({fmt::format("Error at {}", distance)});
-    columns.push_back({"ms"});
-  }
+  Table table{.heading = {}, .columns = {{"spp"}}, .rows = {}};
+  for (const double distance : distances)
+    table.columns.insert(table.columns.end(), {{fmt::format("Error at {}", distance)}, {"ms"}});
   std::map<int, std::vector<std::string>> by_count;
   for (std::size_t i = 0; i < distances.size(); ++i) {
     for (const SupersamplingPoint& point : results.supersampling) {
       if (point.distance != distances[i]) continue;
       std::vector<std::string>& row =
-          by_count.try_emplace(point.spp, std::vector<std::string>(columns.size(), "n/a")).first->second;
+          by_count.try_emplace(point.spp, std::vector<std::string>(table.columns.size(), "n/a")).first->second;
       row[0] = fmt::format("{}", point.spp);
       if (point.normalized_color) row[1 + 2 * i] = error_text(*point.normalized_color);
       row[2 + 2 * i] = three_figures(point.ms);
     }
   }
-  Rows rows;
-  for (auto& [spp, row] : by_count) rows.push_back(std::move(row));
-  return markdown_table(columns, rows);
+  for (auto& [spp, row] : by_count) table.rows.push_back(std::move(row));
+  return markdown_table(table);
 }
 
 std::string supersampling_section(const Results& results) {
@@ -278,66 +265,52 @@ std::string words_section(const Results& results) {
   return text + "\nErrors are normalised colour errors; lower is better.\n\n" + notes();
 }
 
-constexpr std::array flicker_parts{&FlickerCauses::shading, &FlickerCauses::edges, &FlickerCauses::filter,
-                                   &FlickerCauses::method};
-
-// The mean and the maximum of the figures that exist.
-struct Summary {
-  double sum = 0, largest = 0;
-  int count = 0;
-
-  void add(const std::optional<double>& value) {
-    if (!value) return;
-    sum += *value;
-    largest = count == 0 ? *value : std::max(largest, *value);
-    ++count;
-  }
-  [[nodiscard]] std::string mean_text() const { return count > 0 ? error_text(sum / count) : "n/a"; }
-  [[nodiscard]] std::string largest_text() const { return count > 0 ? error_text(largest) : "n/a"; }
+/// A column of means over an animation's frames.
+struct MeanColumn {
+  const char *title, *place;  // its heading, and the figure as a JSON pointer into a record
+  bool is_largest = false;    // not the mean
 };
 
-std::vector<std::string> mean_row(const Results& results, const std::string& method) {
-  Summary error, floor, flicker, p99, flicker_floor, highlights;
-  for (const Record& record : results.records) {
-    if (record.method != method) continue;
-    if (record.error) {
-      error.add(record.error->normalized_color);
-      floor.add(record.error->noise_floor);
-    }
-    highlights.add(record.highlight_energy);
-    if (!record.flicker) continue;
-    flicker.add(record.flicker->mean);
-    p99.add(record.flicker->p99);
-    flicker_floor.add(record.flicker->noise_floor);
+constexpr std::array<MeanColumn, 7> mean_columns{{{"Error", "/error/normalized_color"},
+                                                  {"Floor", "/error/noise_floor"},
+                                                  {"Flicker", "/flicker/mean"},
+                                                  {"Worst frame", "/flicker/mean", true},
+                                                  {"99th perc.", "/flicker/p99"},
+                                                  {"Flicker floor", "/flicker/noise_floor"},
+                                                  {"Highlights", "/highlight_energy"}}};
+constexpr std::array<MeanColumn, 8> cause_columns{{{"Shading", "/flicker/shading/mean"},
+                                                   {"p99", "/flicker/shading/p99"},
+                                                   {"Edges", "/flicker/edges/mean"},
+                                                   {"p99", "/flicker/edges/p99"},
+                                                   {"Filter", "/flicker/filter/mean"},
+                                                   {"p99", "/flicker/filter/p99"},
+                                                   {"Method's own", "/flicker/method/mean"},
+                                                   {"p99", "/flicker/method/p99"}}};
+
+/// Over the frames of a method that have the figure; "n/a" without any.
+/// records: as results.json has them.
+std::string mean_text(const nlohmann::ordered_json& records, const std::string& method, const MeanColumn& column) {
+  std::vector<double> figures;
+  const nlohmann::ordered_json::json_pointer place(column.place);
+  for (const nlohmann::ordered_json& record : records) {
+    if (record.at("method") == method && record.contains(place) && record.at(place).is_number())
+      figures.push_back(record.at(place));
   }
-  return {
-      method,          error.mean_text(),         floor.mean_text(),     flicker.mean_text(), flicker.largest_text(),
-      p99.mean_text(), flicker_floor.mean_text(), highlights.mean_text()};
+  if (figures.empty()) return "n/a";
+  return error_text(column.is_largest
+                        ? std::ranges::max(figures)
+                        : std::accumulate(figures.begin(), figures.end(), 0.0) / static_cast<double>(figures.size()));
 }
 
-std::vector<std::string> cause_row(const Results& results, const std::string& method) {
-  std::vector<std::string> row{method};
-  for (const auto part : flicker_parts) {
-    Summary mean, p99;
-    for (const Record& record : results.records) {
-      if (record.method != method || !record.flicker) continue;
-      const std::optional<PartFlicker>& value = record.flicker->causes.*part;
-      if (!value) continue;
-      mean.add(value->mean);
-      p99.add(value->p99);
-    }
-    row.push_back(mean.mean_text());
-    row.push_back(p99.mean_text());
+std::string means_table(const nlohmann::ordered_json& records, const std::vector<std::string>& methods,
+                        std::span<const MeanColumn> columns) {
+  Table table{.heading = {}, .columns = {{"Method", false}}, .rows = {}};
+  for (const MeanColumn& column : columns) table.columns.push_back({column.title});
+  for (const std::string& method : methods) {
+    std::vector<std::string>& row = table.rows.emplace_back(1, method);
+    for (const MeanColumn& column : columns) row.push_back(mean_text(records, method, column));
   }
-  return row;
-}
-
-std::string highlights_of_reference(const Results& results, const std::string& method) {
-  Summary energy;
-  for (const Record& record : results.records) {
-    if (record.method == method) energy.add(record.reference_highlight_energy);
-  }
-  return energy.mean_text();
+  return markdown_table(table);
 }
 
 }  // namespace
@@ -369,24 +342,11 @@ std::string path_words(const Results& results) {
 
 std::string animation_table(const Results& results) {
   const std::vector<std::string> methods = methods_in_order(results.records);
-  std::vector<std::vector<std::string>> rows, causes;
-  for (const std::string& method : methods) {
-    rows.push_back(mean_row(results, method));
-    causes.push_back(cause_row(results, method));
-  }
-  std::string text =
-      fmt::format("# {}, {} frames: {}\n\n", markdown_escaped(results.scene.name),
-                  results.records.size() / methods.size(), path_words(results)) +
-      markdown_table({{"Method", false},
-                      {"Error"},
-                      {"Floor"},
-                      {"Flicker"},
-                      {"Worst frame"},
-                      {"99th perc."},
-                      {"Flicker floor"},
-                      {"Highlights"}},
-                     rows) +
-      fmt::format(R"(
+  const nlohmann::ordered_json records = to_json_value(results.records);
+  std::string text = fmt::format("# {}, {} frames: {}\n\n", markdown_escaped(results.scene.name),
+                                 results.records.size() / methods.size(), path_words(results)) +
+                     means_table(records, methods, mean_columns) +
+                     fmt::format(R"(
 Error: normalised colour error against the reference, mean over the frames. Flicker: how much the change since the
 previous frame differs from the reference's, mean over the object's pixels and the frames, and 99th percentile over the
 pixels. Floors: the part that the reference's own noise causes. Highlights: exposed luminance above 0.8, mean over the
@@ -395,11 +355,9 @@ pixels; {} in the reference.
 Flicker by cause, mean and 99th percentile:
 
 )",
-                  highlights_of_reference(results, methods.front())) +
-      markdown_table(
-          {{"Method", false}, {"Shading"}, {"p99"}, {"Edges"}, {"p99"}, {"Filter"}, {"p99"}, {"Method's own"}, {"p99"}},
-          causes) +
-      R"(
+                                 mean_text(records, methods.front(), {"", "/reference_highlight_energy"})) +
+                     means_table(records, methods, cause_columns) +
+                     R"(
 Shading: pixels that are interior in both frames. Edges: the object's other pixels. Filter: flicker of the exact sum
 under the same footprint filter. Method's own: flicker of the image compared with that sum.
 )";

@@ -44,17 +44,15 @@ function sorted(rows) {
 }
 
 function headCell(column) {
-  const button = element('button', '', state.columns ? column.title : few[column.key] ?? column.title);
-  button.type = 'button';
-  button.title = column.meaning ?? '';
-  button.addEventListener('click', () => {
+  const sort = () => {
     state.descending = state.sort === column && !state.descending;
     state.sort = column;
     showTable();
     writeState();
     byId('table').querySelector('th[aria-sort] button').focus();
-  });
-  const cell = element('th', column.words ? 'words-column' : '', button);
+  };
+  const cell = element('th', column.words ? 'words-column' : '', button({title: column.meaning ?? ''}, sort,
+    state.columns ? column.title : few[column.key] ?? column.title));
   cell.scope = 'col';
   if (state.sort === column) cell.setAttribute('aria-sort', state.descending ? 'descending' : 'ascending');
   return cell;
@@ -121,11 +119,8 @@ function pairCell(row, column) {
   const pair = row === column ? null : pairOf(row, column);
   if (!pair) return element('td', '', '–');
   const share = pair.closer[pair.methods.indexOf(row)];
-  const button = element('button', '', `${(100 * share).toFixed(1)}%`);
-  button.type = 'button';
-  button.title = `Where is ${row} closer than ${column}?`;
-  button.addEventListener('click', () => showPair(pair));
-  return element('td', '', button);
+  return element('td', '', button({title: `Where is ${row} closer than ${column}?`}, () => showPair(pair),
+    `${(100 * share).toFixed(1)}%`));
 }
 
 function showPairs() {

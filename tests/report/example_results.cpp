@@ -248,7 +248,7 @@ MatrixResults example_matrix(std::size_t members) {
       record.error->normalized_color *= scale;
       if (record.error->causes.shading) *record.error->causes.shading *= scale;
       record.frame_ms = {.median = record.frame_ms.median * scale,
-                         .minimum = record.frame_ms.minimum * scale,
+                         .min = record.frame_ms.min * scale,
                          .p90 = record.frame_ms.p90 * scale};
       record.flicker = Flicker{
           .mean = (0.5 * record.error->normalized_color + 0.01) / record.distance, .p99 = 0.3, .noise_floor = 0.002};

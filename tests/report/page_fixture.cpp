@@ -115,13 +115,13 @@ void write_views(const std::filesystem::path& folder) {
       {.heading = "steel </script>",
        .sentences = {"b is chosen.", "a is cheaper."},
        .command = "footprint bake <steel>",
-       .plot = {.cost_title = "Relative cost",
-                .points = {{.name = "a", .cost = 1, .low = 0.9, .high = 1.1, .error = 0.1},
-                           {.name = "b", .cost = 2, .low = 1.9, .high = 2.2, .error = 0.05, .is_chosen = true},
-                           {.name = "worse", .cost = 3, .low = 2, .high = 4, .error = 0.2}},
-                .most_error = 0.08},
+       .plot = {.title = "Relative cost",
+                .points = {{.name = "a", .x = 1, .low = 0.9, .high = 1.1, .y = 0.1},
+                           {.name = "b", .x = 2, .low = 1.9, .high = 2.2, .y = 0.05, .chosen = true},
+                           {.name = "worse", .x = 3, .low = 2, .high = 4, .y = 0.2}},
+                .most_y = 0.08},
        .table = {.heading = {}, .columns = {{"Method", false}, {"Error"}}, .rows = {{"a", "0.1"}, {"b", "0.05"}}},
-       .marked_row = 1,
+       .marked = 1,
        .links = {"a b/index.html"}});
   page.provenance = {{"Version", "none"}};
   write_file_atomically(folder / "index.html", page_html(page));

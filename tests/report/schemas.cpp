@@ -1,4 +1,4 @@
-// Compares the schemas of docs/ with the fields that results/report/record_fields.hpp lists: footprint_schemas FOLDER.
+// Compares the schemas of docs/ with the fields of results/report/record_fields.hpp: footprint_schemas FOLDER.
 // With --write it gives them that structure, and a new property an empty description to fill in.
 #include <fmt/format.h>
 

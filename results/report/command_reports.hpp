@@ -1,0 +1,181 @@
+// The reports of commands that compare no images: `footprint edit`, `footprint cost` and `footprint ndf`.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "renderer/core/gpu_cost.hpp"
+#include "renderer/core/progress.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// One edit: from new parameters of the small-scale geometry to a picture.
+struct EditRecord {
+  int frame = 0;
+  std::map<std::string, std::string> parameters;  ///< those that are set, by name
+  std::vector<StageTime> stages;                  ///< one after the other, from the geometry to the frame
+  std::uint64_t bytes = 0;                        ///< of the baked maps
+  std::vector<std::string> notes;                 ///< what the method says of each material, by material
+  std::string image;                              ///< EXR, from the output folder; with a .png of the same stem
+
+  /// The sum of the stages, seconds.
+  [[nodiscard]] double seconds() const;
+};
+
+/// The frames of an edit by one method: the content of edit.json.
+struct EditRun {
+  std::string schema = "footprint-edit/1";
+  ToolInfo tool;
+  BackendInfo backend;
+  SceneInfo scene;
+  std::string kind;    ///< of the small-scale geometry
+  std::string method;  ///< as written
+  std::array<int, 2> size{};
+  std::vector<EditRecord> records;
+};
+
+/// The names of the stages, in the order in which they first come in any record.
+[[nodiscard]] std::vector<std::string> stage_names(const EditRun& run);
+
+/// The document of docs/reference/results.md, "schema": "footprint-edit/1".
+[[nodiscard]] std::string edit_json(const EditRun& run);
+
+/// One line per frame, one column per parameter and stage (milliseconds), RFC 4180.
+[[nodiscard]] std::string edit_csv(const EditRun& run);
+
+/// One line per stage in Markdown: median, least and most milliseconds over the frames; edits per second.
+[[nodiscard]] std::string edit_table(const EditRun& run);
+
+/// Writes edit.json, edit.csv and table.md into `folder`, each whole or not at all. Errors (machine).
+void write_edit(const EditRun& run, const std::filesystem::path& folder);
+
+/// Mean rounds per pixel of the loops that depend on the pixel; 0 if the method has no such loop.
+struct LoopTrips {
+  double probes = 0, lobes = 0, rounds = 0;
+};
+
+/// The costs of one method.
+struct MethodCosts {
+  std::string method;
+  LoopTrips trips;
+  double lookups = 0;  ///< texture lookups per pixel, counted on the software renderer
+  double map_bytes = 0;
+  double pixels = 0;  ///< that the object covers
+  std::vector<GpuCost> gpus;
+};
+
+/// The costs of some methods over one scene: the content of cost.json.
+struct CostReport {
+  std::string schema = "footprint-cost/1";
+  ToolInfo tool;
+  BackendInfo backend;
+  SceneInfo scene;
+  std::string footprint, compiler;
+  std::array<int, 2> size{};
+  double distance = 1;
+  std::vector<MethodCosts> methods;
+};
+
+/// The document of docs/explanation/gpu-cost.md, "schema": "footprint-cost/1".
+[[nodiscard]] std::string cost_json(const CostReport& report);
+
+/// One line per method and GPU, RFC 4180.
+[[nodiscard]] std::string cost_csv(const CostReport& report);
+
+/// One Markdown table per GPU: a line per method, with its cost over that of the first method.
+[[nodiscard]] std::string cost_table(const CostReport& report);
+
+/// The same tables for each distance of a run, as a section of table.md and of the page; empty without estimates.
+[[nodiscard]] std::string gpu_costs_markdown(const Results& results);
+[[nodiscard]] std::string gpu_costs_html(const Results& results);
+
+/// Writes cost.json, cost.csv and table.md into `folder`, each atomically. Throws Error (machine).
+void write_cost(const CostReport& report, const std::filesystem::path& folder);
+
+/// Paths below the output folder.
+struct NdfImages {
+  std::string density;     ///< EXR, per solid angle, over the x-y disc
+  std::string picture;     ///< PNG of the same in false colour
+  std::string difference;  ///< PNG of |method - exact| on the same scale; empty for the exact NDF
+};
+
+/// One method's effective NDF next to the exact one. Figures that are not finite could not be measured.
+struct NdfRecord {
+  double l2 = 0.0;      ///< relative L2 error over solid angle
+  double energy = 0.0;  ///< over the exact NDF's
+  double peak = 0.0;    ///< largest density, per steradian
+  int lobes = 0;        ///< evaluated per pixel
+  std::map<std::string, std::variant<double, std::string>> options;
+  NdfImages images;
+};
+
+/// The exact NDF of the footprint.
+struct ExactNdfRecord {
+  double energy = 0.0;           ///< its integral over the grid
+  double expected_energy = 0.0;  ///< the same from the lobes' own integrals
+  double peak = 0.0;
+  struct Images {
+    std::string density, picture;
+  } images = {};
+};
+
+/// The content of ndf.json.
+struct NdfResults {
+  std::string schema = "footprint-ndf/1";
+  ToolInfo tool = {};
+  struct Source {
+    std::string path;           ///< SCENE or MAP as given
+    std::string kind;           ///< scene or map
+    std::string material;       ///< its name
+    int width = 1, height = 1;  ///< of the normal map
+  } source = {};
+  struct Lobe {
+    std::string narrowest;  ///< blinn_phong:64
+    bool varies = false;    ///< over the footprint
+  } lobe = {};
+  struct Region {
+    double u0 = 0.0, v0 = 0.0, u1 = 0.0, v1 = 0.0;
+  } footprint = {};
+  struct Texels {
+    double area = 0.0;         ///< the footprint's, in texels of the normal map
+    double valid_share = 1.0;  ///< of that area
+    std::size_t distinct = 0;  ///< different facets among them
+  } texels = {};
+  struct Fetch {
+    double level = 0.0;  ///< that an isotropic trilinear fetch takes
+    std::string filter;  ///< the footprint filter
+  } fetch = {};
+  struct Grid {
+    int resolution = 0;          ///< rings of directions
+    std::size_t directions = 0;  ///< in all
+    bool fine_enough = true;     ///< energy and expected_energy agree to `ndf_energy_tolerance`
+  } grid = {};
+  struct Pictures {
+    double scale = 0.0;  ///< density at the light end of the false-colour scale
+    std::string strip;   ///< the picture of all
+  } pictures = {};
+  ExactNdfRecord truth = {};
+  std::vector<std::pair<std::string, NdfRecord>> methods = {};  ///< by their names as written
+  std::vector<std::string> notes = {};                          ///< what was left out or supplied, one line each
+};
+
+/// The grid is too coarse if its integral of the exact NDF differs from the lobes' own by a larger share.
+inline constexpr double ndf_energy_tolerance = 0.005;
+
+[[nodiscard]] std::string ndf_json(const NdfResults& results);
+
+/// The page: the densities in the comparator, their differences, and the table.
+[[nodiscard]] std::string ndf_page(const NdfResults& results);
+
+/// One row per method, and the exact NDF's.
+[[nodiscard]] std::string ndf_table(const NdfResults& results);
+
+}  // namespace footprint

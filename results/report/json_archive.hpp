@@ -108,17 +108,23 @@ template <MemberAddress member>
   return std::string(text.substr(start, end - start));
 }
 
-/// A structure to take the addresses of members of; there is none at run time.
+/// A structure to take the addresses of members of; its values are not used.
 template <class T>
-extern const T example;
+inline const T example{};
+
+/// The name of member `i` of a structure.
+template <class T, std::size_t i>
+[[nodiscard]] std::string member_name_of() {
+  constexpr MemberAddress member(std::get<i>(members_of(example<T>)));
+  return member_name<member>();
+}
 
 /// Every member of a structure that has no list of its own.
 template <class Archive, class Structure>
 void fields(Archive& archive, Structure& value) {
   const auto members = members_of(value);
   const auto add = [&]<std::size_t... i>(std::index_sequence<i...> /*all*/) {
-    constexpr auto all = members_of(example<std::remove_const_t<Structure>>);  // NOLINT(*-undefined-var-template)
-    (archive(member_name<MemberAddress(std::get<i>(all))>().c_str(), std::get<i>(members)), ...);
+    (archive(member_name_of<std::remove_const_t<Structure>, i>().c_str(), std::get<i>(members)), ...);
   };
   add(std::make_index_sequence<std::tuple_size_v<decltype(members)>>());
 }

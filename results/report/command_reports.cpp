@@ -39,6 +39,17 @@ std::vector<std::string> table_row(const std::string& name, std::vector<double> 
   return {name, three_figures(median(values)), three_figures(values.front()), three_figures(values.back())};
 }
 
+// The names of the stages, in the order in which they first come in any record.
+std::vector<std::string> stage_names(const EditRun& run) {
+  std::vector<std::string> names;
+  for (const EditRecord& record : run.records) {
+    for (const StageTime& time : record.stages) {
+      if (std::ranges::find(names, time.stage) == names.end()) names.push_back(time.stage);
+    }
+  }
+  return names;
+}
+
 std::vector<double> edit_times(const EditRun& run) {
   std::vector<double> times;
   for (const EditRecord& record : run.records) times.push_back(milliseconds * record.seconds());
@@ -50,16 +61,6 @@ std::vector<double> edit_times(const EditRun& run) {
 double EditRecord::seconds() const {
   return std::accumulate(stages.begin(), stages.end(), 0.0,
                          [](double sum, const StageTime& time) { return sum + time.seconds; });
-}
-
-std::vector<std::string> stage_names(const EditRun& run) {
-  std::vector<std::string> names;
-  for (const EditRecord& record : run.records) {
-    for (const StageTime& time : record.stages) {
-      if (std::ranges::find(names, time.stage) == names.end()) names.push_back(time.stage);
-    }
-  }
-  return names;
 }
 
 void fields(JsonWriter& archive, const EditRecord& value) {
@@ -139,6 +140,23 @@ std::string csv_value(const JsonWriter::Json& value) {
   return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+// One line per method and GPU, RFC 4180.
+std::string cost_csv(const CostReport& report) {
+  std::string csv = "method,gpu,lookups,map_bytes,pixels,probes,lobes,rounds";
+  for (const char* column : csv_columns) csv += fmt::format(",{}", column);
+  csv += "\r\n";
+  for (const MethodCosts& method : report.methods) {
+    for (const GpuCost& cost : method.gpus) {
+      csv += fmt::format("{},{},{},{},{},{},{},{}", csv_field(method.method), csv_field(cost.gpu), method.lookups,
+                         method.map_bytes, method.pixels, method.trips.probes, method.trips.lobes, method.trips.rounds);
+      const auto json = to_json_value(cost);
+      for (const char* column : csv_columns) csv += "," + csv_value(json.at(column));
+      csv += "\r\n";
+    }
+  }
+  return csv;
+}
+
 std::vector<std::string> table_row(const MethodCosts& method, const GpuCost& cost, double first_ns) {
   if (cost.failure) return {method.method, "", "", *cost.failure, "", "", "", "", "", ""};
   return {method.method,
@@ -204,24 +222,6 @@ constexpr const char* gpu_note =
 
 }  // namespace
 
-std::string cost_json(const CostReport& report) { return json_text(to_json_value(report), 2) + "\n"; }
-
-std::string cost_csv(const CostReport& report) {
-  std::string csv = "method,gpu,lookups,map_bytes,pixels,probes,lobes,rounds";
-  for (const char* column : csv_columns) csv += fmt::format(",{}", column);
-  csv += "\r\n";
-  for (const MethodCosts& method : report.methods) {
-    for (const GpuCost& cost : method.gpus) {
-      csv += fmt::format("{},{},{},{},{},{},{},{}", csv_field(method.method), csv_field(cost.gpu), method.lookups,
-                         method.map_bytes, method.pixels, method.trips.probes, method.trips.lobes, method.trips.rounds);
-      const auto json = to_json_value(cost);
-      for (const char* column : csv_columns) csv += "," + csv_value(json.at(column));
-      csv += "\r\n";
-    }
-  }
-  return csv;
-}
-
 std::string cost_table(const CostReport& report) {
   std::string text =
       fmt::format("# Estimated cost on GPUs: {}, {}x{}, distance {:g}, {}\n", markdown_escaped(report.scene.name),
@@ -244,7 +244,7 @@ std::string gpu_costs_html(const Results& results) {
 }
 
 void write_cost(const CostReport& report, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "cost.json", cost_json(report));
+  write_file_atomically(folder / "cost.json", json_text(to_json_value(report), 2) + "\n");
   write_file_atomically(folder / "cost.csv", cost_csv(report));
   write_file_atomically(folder / "table.md", cost_table(report));
 }

@@ -42,9 +42,6 @@ struct EditRun {
   std::vector<EditRecord> records;
 };
 
-/// The names of the stages, in the order in which they first come in any record.
-[[nodiscard]] std::vector<std::string> stage_names(const EditRun& run);
-
 /// The document of docs/reference/results.md, "schema": "footprint-edit/1".
 [[nodiscard]] std::string edit_json(const EditRun& run);
 
@@ -83,12 +80,6 @@ struct CostReport {
   double distance = 1;
   std::vector<MethodCosts> methods;
 };
-
-/// The document of docs/explanation/gpu-cost.md, "schema": "footprint-cost/1".
-[[nodiscard]] std::string cost_json(const CostReport& report);
-
-/// One line per method and GPU, RFC 4180.
-[[nodiscard]] std::string cost_csv(const CostReport& report);
 
 /// One Markdown table per GPU: a line per method, with its cost over that of the first method.
 [[nodiscard]] std::string cost_table(const CostReport& report);

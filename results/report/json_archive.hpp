@@ -1,5 +1,5 @@
 // Values as JSON and back. The fields of a structure are its members, by their names. One that differs from its
-// document lists its fields once, by `fields(archive, value)` in its namespace:
+// document lists its fields once, by `fields(archive, value)` in its namespace, before it is written or read:
 //   void fields(auto& archive, Is<Flicker> auto& value) { archive("mean", value.mean); ... }
 // An enumeration gives its words by `words_of(value)`. A number that is not finite is null, like an absent value.
 #pragma once

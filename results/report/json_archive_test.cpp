@@ -58,6 +58,13 @@ TEST(JsonArchive, TheCurveSideComesBack) {
   EXPECT_FALSE(from_json_value<Record>(to_json_value(Record{})).equivalent);
 }
 
+TEST(JsonArchive, MembersAreFieldsByTheirNamesInOrder) {
+  std::vector<std::string> names;
+  const Json pair = to_json_value(MethodPair{});
+  for (const auto& [name, value] : pair.items()) names.push_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("distance", "methods", "closer", "materials", "picture"));
+}
+
 TEST(JsonArchive, AnotherDocumentIsRefused) {
   EXPECT_THROW((void)from_json_value<Record>(Json::array()), Json::exception);
   EXPECT_THROW((void)from_json_value<Record>(Json::object()), Json::exception);

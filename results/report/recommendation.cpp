@@ -216,6 +216,11 @@ std::vector<std::string> answer_of(const Recommendation& recommendation) {
   return answer;
 }
 
+// "First answer (coarse, 25% of the pixels)".
+std::string first_answer_title(const Recommendation& recommendation) {
+  return fmt::format("First answer (coarse, {:.0f}% of the pixels)", 100.0 * recommendation.coarse.value());
+}
+
 std::string lede_of(const Recommendation& recommendation) {
   std::string lede = "Goal: " + limits_text(recommendation.limits) + ".";
   if (recommendation.coarse) lede += fmt::format(" {}: the run is not finished.", first_answer_title(recommendation));
@@ -302,10 +307,6 @@ std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Li
                                      against_plain(advice), what_better_costs(advice)};
   std::erase(sentences, std::string());
   return sentences;
-}
-
-std::string first_answer_title(const Recommendation& recommendation) {
-  return fmt::format("First answer (coarse, {:.0f}% of the pixels)", 100.0 * recommendation.coarse.value());
 }
 
 std::string recommendation_text(const Recommendation& recommendation) {

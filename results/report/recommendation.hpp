@@ -105,9 +105,6 @@ struct Recommendation {
 /// The findings on a material, in sentences.
 [[nodiscard]] std::vector<std::string> advice_sentences(const MaterialAdvice& advice, const Limits& limits);
 
-/// "First answer (coarse, 25% of the pixels)", of a recommendation that is one.
-[[nodiscard]] std::string first_answer_title(const Recommendation& recommendation);
-
 /// The text that the program prints, recommend.json (docs/recommend.schema.json, "schema": "footprint-recommend/1") and
 /// index.html.
 [[nodiscard]] std::string recommendation_text(const Recommendation& recommendation);

@@ -119,14 +119,13 @@ Errors errors_of(std::vector<double> each) {
 
 Errors errors_of(const auto& vector) { return errors_of(std::vector<double>(vector.begin(), vector.end())); }
 
-// A method over one material.
+// The errors of a method over one material at texels of all levels.
 class MethodRows {
  public:
   MethodRows(const gl::Context& context, const Material& material, const MethodSpec& spec)
       : scene_(scene_of_facets(material)),
-        effects_(effects()),
-        gpu_(context.info(), scene_, effects_),
-        baked_(bake(find_method(spec), spec, scene_, effects_, no_progress)),
+        gpu_(context.info(), scene_, effects()),
+        baked_(bake(find_method(spec), spec, scene_, effects(), no_progress)),
         ndf_(context.info(), gpu_, baked_, scene_.materials.front(), {.kind = FootprintFilterKind::trilinear}) {}
 
   [[nodiscard]] Errors errors(const std::vector<FootprintRect>& rects, const Rows& rows,
@@ -141,51 +140,38 @@ class MethodRows {
   }
 
  private:
-  static EffectSet effects() {
-    EffectSet effects;
-    effects.set(static_cast<std::size_t>(Effect::normal_variation));
-    return effects;
-  }
+  static EffectSet effects() { return EffectSet().set(static_cast<std::size_t>(Effect::normal_variation)); }
 
   Scene scene_;
-  EffectSet effects_;
   GpuScene gpu_;
   BakedMethod baked_;
   MethodNdf ndf_;
 };
 
-// One material: its methods, and the errors at each level.
-class MapRank {
- public:
-  MapRank(const gl::Context& context, const Request& request, Material material)
-      : request_(&request), material_(std::move(material)), directions_(directions_of(material_)) {
-    for (const MethodSpec& spec : parse_methods(request.methods))
-      methods_.push_back(std::make_unique<MethodRows>(context, material_, spec));
-  }
-
-  // For each number of terms the best functions and non-negative ones, then each method.
-  [[nodiscard]] std::vector<Errors> errors_at(int level) const {
-    const std::vector<FootprintRect> rects = texels_of(material_, level, request_->texels);
+// At each level, for each number of terms the best functions and non-negative ones, then each method.
+std::vector<std::vector<Errors>> errors_by_level(const gl::Context& context, const Request& request,
+                                                 const Material& material) {
+  const std::vector<glm::vec3> directions = directions_of(material);
+  std::vector<std::unique_ptr<MethodRows>> methods;
+  for (const MethodSpec& spec : parse_methods(request.methods))
+    methods.push_back(std::make_unique<MethodRows>(context, material, spec));
+  std::vector<std::vector<Errors>> levels;
+  for (const int level : request.levels) {
+    const std::vector<FootprintRect> rects = texels_of(material, level, request.texels);
     if (rects.empty())
-      throw Error(ErrorKind::usage, material_.name, fmt::format("it has no level {}", level), "give a larger --middle");
-    const Rows rows = rows_of(material_, rects, directions_);
+      throw Error(ErrorKind::usage, material.name, fmt::format("it has no level {}", level), "give a larger --middle");
+    const Rows rows = rows_of(material, rects, directions);
     const BestBases best(rows.unit);
     const Eigen::MatrixXf single = rows.unit.cast<float>();
-    std::vector<Errors> out;
-    for (const int terms : request_->terms) {
-      out.push_back(errors_of(best.distances(terms)));
-      out.push_back(errors_of(nonnegative_distances(single, terms, rounds, seed)));
+    std::vector<Errors>& errors = levels.emplace_back();
+    for (const int terms : request.terms) {
+      errors.push_back(errors_of(best.distances(terms)));
+      errors.push_back(errors_of(nonnegative_distances(single, terms, rounds, seed)));
     }
-    for (const auto& method : methods_) out.push_back(method->errors(rects, rows, directions_));
-    return out;
+    for (const auto& method : methods) errors.push_back(method->errors(rects, rows, directions));
   }
-
- private:
-  const Request* request_;
-  Material material_;
-  std::vector<glm::vec3> directions_;
-  std::vector<std::unique_ptr<MethodRows>> methods_;
-};
+  return levels;
+}
 
 std::string head_of(const Request& request) {
   std::string head = "| lobe | level |";
@@ -218,9 +204,9 @@ std::string table_of(const Request& request) {
     std::vector<std::vector<Errors>> sums(request.levels.size());
     for (const std::string& map : request.maps) {
       const NdfSource source = load_ndf_source({.path = map}, "", {});
-      const MapRank rank(context, request,
-                         cut(with_lobe(source.material, parse_lobe("--lobes", lobe)), request.middle));
-      for (std::size_t i = 0; i < sums.size(); ++i) add_logs(rank.errors_at(request.levels[i]), sums[i]);
+      const auto errors = errors_by_level(context, request,
+                                          cut(with_lobe(source.material, parse_lobe("--lobes", lobe)), request.middle));
+      for (std::size_t i = 0; i < sums.size(); ++i) add_logs(errors[i], sums[i]);
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {
       table += fmt::format("\n| `{}` | {} |", lobe, request.levels[i]);

@@ -90,25 +90,21 @@ struct Composer {
   }
 
   void add_row(const std::vector<FigurePicture>& row, std::vector<Image>& rows, std::vector<Image>& error_rows) const {
-    std::vector<Image> pictures, errors;
-    std::vector<std::string> captions, error_captions;
+    Strip pictures, errors;
     for (const FigurePicture& picture : row) {
       const Record& record = record_of(picture);
       const auto exposure = static_cast<float>(results.scene.exposure);
       const Image reference = read_image(folder / record.images.reference, Transfer::linear);
       const Image image = picture.method ? read_image(folder / record.images.color, Transfer::linear) : reference;
-      captions.push_back(caption(picture, record));
-      pictures.push_back(shown(to_display(image, exposure), picture, layout));
+      pictures.add(shown(to_display(image, exposure), picture, layout), caption(picture, record));
       if (!picture.method) continue;
-      error_captions.push_back(captions.back());
-      errors.push_back(
-          shown(false_color(error_map(image, reference, exposure), static_cast<float>(results.error_scale)), picture,
-                layout));
+      const Image error = false_color(error_map(image, reference, exposure), static_cast<float>(results.error_scale));
+      errors.add(shown(error, picture, layout), pictures.captions.back());
     }
-    pad_to_one_height(pictures);
-    pad_to_one_height(errors);
-    rows.push_back(labelled_strip(pictures, captions));
-    if (!errors.empty()) error_rows.push_back(labelled_strip(errors, error_captions));
+    pad_to_one_height(pictures.pictures);
+    pad_to_one_height(errors.pictures);
+    rows.push_back(pictures.drawn());
+    if (!errors.pictures.empty()) error_rows.push_back(errors.drawn());
   }
 
   // Records stand frame by frame, in each in the order of the methods.

@@ -24,18 +24,9 @@ namespace fs = std::filesystem;
 // Each member has a folder and a comparison, which stores all its methods at once.
 constexpr std::size_t most_members = 1000, most_methods = 200;
 
-struct AxisSource {
-  std::string_view key, table;  // of the setting
-};
+constexpr std::array<std::string_view, 4> varied_keys{"scene", "size", "footprint", "seed"};  // keys of settings
 
-constexpr std::array<AxisSource, 4> axis_sources{
-    {{"scene", "experiment"}, {"size", "experiment"}, {"footprint", "experiment"}, {"seed", "reference"}}};
-
-const Setting& setting_of(std::string_view key) {
-  const AxisSource& source = *std::ranges::find(axis_sources, key, &AxisSource::key);
-  return *std::ranges::find_if(
-      run_settings(), [&](const Setting& setting) { return setting.key == key && setting.table == source.table; });
-}
+const Setting& setting_of(std::string_view key) { return *std::ranges::find(run_settings(), key, &Setting::key); }
 
 void set_value(Experiment& experiment, const std::string& key, const std::string& value) {
   setting_of(key).type.read_text(experiment.run, key, value);
@@ -169,8 +160,8 @@ bool is_over(const Expression& expression, const std::vector<Coordinates>& membe
 
 std::vector<std::string> axis_keys(std::string_view table) {
   std::vector<std::string> keys;
-  for (const AxisSource& source : axis_sources) {
-    if (table.empty() || table == source.table) keys.emplace_back(source.key);
+  for (const std::string_view key : varied_keys) {
+    if (table.empty() || table == setting_of(key).table) keys.emplace_back(key);
   }
   return keys;
 }

@@ -408,7 +408,7 @@ ComparisonHead head_of(Job& job) {
   const Stage& stage = job.workbench().stage;
   const RunSettings& settings = job.settings;
   ComparisonHead head{.backend = backend_info(stage.context().info()),
-                      .scene = stage.info({}),
+                      .scene = stage.info(),
                       .reference = reference_of(settings, stage.effects()),
                       .footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded())),
                       .way = way_of(settings, stage.scene()),

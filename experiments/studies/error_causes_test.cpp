@@ -59,7 +59,7 @@ TEST(PixelParts, CountWhereThereIsSomethingToFilter) {
 TEST(ErrorCauses, PartsMakeTheWhole) {
   const Image reference = noise(8, 1), picture = noise(8, 2);
   const PixelParts parts = pixel_parts(reference, stripes(8));
-  const ErrorCauses causes = error_causes({.method = picture, .reference = reference}, parts, 1.0F);
+  const ErrorCauses causes = error_causes(picture, reference, nullptr, parts, 1.0F);
   EXPECT_NEAR((32 * *causes.shading + 32 * *causes.edges) / 64,
               compare_images(picture, reference, 1.0F)->normalized_color, 1e-12);
   EXPECT_NE(*causes.shading, *causes.edges);
@@ -69,7 +69,7 @@ TEST(ErrorCauses, PartsMakeTheWhole) {
 TEST(ErrorCauses, OfPartsWithoutAPixelThereIsNone) {
   const Image reference = noise(4, 1), picture = noise(4, 2);
   const ErrorCauses causes =
-      error_causes({.method = picture, .reference = reference}, pixel_parts(reference, everywhere(4, 0.0F)), 1.0F);
+      error_causes(picture, reference, nullptr, pixel_parts(reference, everywhere(4, 0.0F)), 1.0F);
   EXPECT_FALSE(causes.shading.has_value());
   EXPECT_TRUE(causes.edges.has_value());
 }
@@ -78,10 +78,9 @@ TEST(ErrorCauses, OfPartsWithoutAPixelThereIsNone) {
 TEST(ErrorCauses, ShadingIsAtMostFilterAndMethod) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Image reference = noise(6, seed), picture = noise(6, 100 + seed);
-    Image bound = noise(6, 200 + seed);
     const PixelParts parts = pixel_parts(reference, stripes(6));
-    const ErrorCauses causes = error_causes(
-        {.method = picture, .reference = reference, .bound = &bound, .bound_pixels = &parts.interior}, parts, 1.5F);
+    const BoundPicture bound{.picture = noise(6, 200 + seed), .pixels = parts.interior};
+    const ErrorCauses causes = error_causes(picture, reference, &bound, parts, 1.5F);
     EXPECT_LE(*causes.shading, *causes.filter + *causes.method + 1e-12);
     EXPECT_GE(*causes.shading, std::abs(*causes.filter - *causes.method) - 1e-12);
   }
@@ -92,8 +91,8 @@ TEST(ErrorCauses, TheEndsOfTheBound) {
   const Image reference = noise(6, 1), picture = noise(6, 2);
   const PixelParts parts = pixel_parts(reference, stripes(6));
   const auto causes = [&](const Image& bound) {
-    return error_causes({.method = picture, .reference = reference, .bound = &bound, .bound_pixels = &parts.interior},
-                        parts, 1.0F);
+    const BoundPicture drawn{.picture = bound, .pixels = parts.interior};
+    return error_causes(picture, reference, &drawn, parts, 1.0F);
   };
   EXPECT_EQ(*causes(reference).filter, 0.0);
   EXPECT_EQ(*causes(reference).method, *causes(reference).shading);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <map>
@@ -47,17 +46,13 @@ void set_frame_times(Record& record, const std::vector<double>& times) {
 }
 
 // The view before the path begins, and its first frame, which all have the same camera.
-void add_still_frames(History& history, const StagedMethod& method, View view) {
-  for (int i = 0; i < method.history().frames; ++i) {
-    view.frame = static_cast<std::uint32_t>(i);
-    history.add(method.frames(), view);
-  }
-}
-
-void restart(std::optional<History>& history, const StagedMethod& method, const View& view) {
+void restart(std::optional<History>& history, const StagedMethod& method, View view) {
   if (!history) history.emplace(view.size, method.history());
   history->restart();
-  add_still_frames(*history, method, view);
+  for (int i = 0; i < method.history().frames; ++i) {
+    view.frame = static_cast<std::uint32_t>(i);
+    history->add(method.frames(), view);
+  }
 }
 
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
@@ -133,28 +128,18 @@ bool is_ratio_known(const std::vector<double>& times, const std::vector<double>&
   return ratio.high - ratio.low < narrow * ratio.median;
 }
 
-// A view whose camera turns by a fraction of a pixel in each frame, so that a history follows the surface.
-class MovingView {
- public:
-  explicit MovingView(const View& view) : views_{view, view} {
-    constexpr float turn = 1e-4F;  // radians
-    views_[1].camera.world = glm::rotate(view.camera.world, turn, {0.0F, 1.0F, 0.0F});
-  }
-
-  const View& next() { return views_.at(++frames_ % 2); }
-
- private:
-  std::array<View, 2> views_;
-  std::size_t frames_ = 0;
-};
-
+// A history's camera turns by a fraction of a pixel in each frame, so that the history follows the surface.
 DrawFrame next_frame(const StagedMethod& staged, const View& view) {
   if (staged.refusal()) return [] {};
   if (staged.history().frames == 0) return [&] { staged.frames().draw(view); };
-  return
-      [&staged, moving = MovingView(view), history = std::make_shared<History>(view.size, staged.history())]() mutable {
-        history->add(staged.frames(), moving.next());
-      };
+  constexpr float turn = 1e-4F;  // radians
+  View turned = view;
+  turned.camera.world = glm::rotate(view.camera.world, turn, {0.0F, 1.0F, 0.0F});
+  const auto history = std::make_shared<History>(view.size, staged.history());
+  return [&staged, &view, turned, history, is_turned = false]() mutable {
+    is_turned = !is_turned;
+    history->add(staged.frames(), is_turned ? turned : view);
+  };
 }
 
 DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,

@@ -263,7 +263,7 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
   GpuCosts gpus(stage, settings.gpus, compile);
   CostReport report;
   report.backend = backend_info(stage.context().info());
-  report.scene = stage.info({});
+  report.scene = stage.info();
   report.footprint = footprint_filter_text(footprint_filter_of(settings, stage.scene()));
   report.compiler = gpus.compiler();
   report.size = {view.size.x, view.size.y};

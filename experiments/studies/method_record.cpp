@@ -18,11 +18,7 @@ namespace {
 
 // bound: of the footprint filter; null where there is none, as of a history.
 ErrorCauses causes_of(const ReferenceView& target, const BoundPicture* bound, const Image& picture, float exposure) {
-  ErrorCauses causes = error_causes({.method = picture,
-                                     .reference = target.reference.mean,
-                                     .bound = bound != nullptr ? &bound->picture : nullptr,
-                                     .bound_pixels = bound != nullptr ? &bound->pixels : nullptr},
-                                    target.parts, exposure);
+  ErrorCauses causes = error_causes(picture, target.reference.mean, bound, target.parts, exposure);
   causes.shading_floor = target.shading_floor;
   if (target.reference.halves)
     causes.shading_noise = error_noise(picture, *target.reference.halves, exposure, target.parts.interior);

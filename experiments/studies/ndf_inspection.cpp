@@ -93,17 +93,6 @@ std::vector<float> differences(std::span<const float> a, std::span<const float> 
   return out;
 }
 
-// A strip with one row of captions: the images and the captions under them.
-struct Row {
-  std::vector<Image> pictures;
-  std::vector<std::string> captions;
-
-  void add(const Image& picture, const std::string& caption) {
-    pictures.push_back(picture);
-    captions.push_back(caption);
-  }
-};
-
 // A density at the pixels of a disc (`disc_directions`), with its caption.
 struct NdfPicture {
   std::string stem;     // of its files
@@ -128,7 +117,7 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     write_png(folder / images.picture, shown);
     return shown;
   };
-  Row densities, errors;
+  Strip densities, errors;
   densities.add(write(exact, results.truth.images), exact.caption);
   errors.add(Image(size, size, 3, around), "| method - truth |");
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -138,8 +127,7 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     errors.add(colored(size, differences(methods[i].densities, exact.densities), scale), methods[i].caption);
     write_png(folder / images.difference, errors.pictures.back());
   }
-  const Image strip =
-      stacked(labelled_strip(densities.pictures, densities.captions), labelled_strip(errors.pictures, errors.captions));
+  const Image strip = stacked(densities.drawn(), errors.drawn());
   const Image legend = false_color_legend(strip.width, std::max(24, size / 12), scale);
   results.pictures.strip = "ndf.png";
   write_png(folder / results.pictures.strip, stacked(strip, legend));

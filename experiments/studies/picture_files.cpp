@@ -73,6 +73,13 @@ Image stacked(const Image& top, const Image& bottom) {
   return both;
 }
 
+void Strip::add(Image picture, const std::string& caption) {
+  pictures.push_back(std::move(picture));
+  captions.push_back(caption);
+}
+
+Image Strip::drawn() const { return labelled_strip(pictures, captions); }
+
 std::string method_stem(std::span<const MethodSpec> methods, std::size_t index) {
   const std::string stem = file_stem(methods[index].text);
   const auto same = [&](const MethodSpec& other) { return file_stem(other.text) == stem; };
@@ -124,8 +131,9 @@ double error_scale(double largest, const std::optional<double>& given) {
 void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top) {
   const Image reference = counted_reference(folder, result);
   const Image seen_reference = seen(read_back(folder, result.reference), result.exposure.factor);
-  std::vector<Image> pictures{to_display(read_back(folder, result.reference), result.exposure.factor)}, errors;
-  std::vector<std::string> captions{fmt::format("reference, {:.0f} spp", result.samples)}, methods;
+  Strip pictures, errors;
+  pictures.add(to_display(read_back(folder, result.reference), result.exposure.factor),
+               fmt::format("reference, {:.0f} spp", result.samples));
   for (Record& record : result.records) {
     if (record.failure) continue;
     const Image picture = read_back(folder, record.images.color);
@@ -134,15 +142,13 @@ void write_error_images(const std::filesystem::path& folder, DistanceResult& res
     record.images.error_shared = record.images.error;
     const Image flip = ldr_flip(seen(picture, result.exposure.factor), seen_reference);
     record.images.flip = error_file(folder, record, "_flip", flip, 1.0);
-    pictures.push_back(to_display(picture, result.exposure.factor));
-    errors.push_back(false_color(error, static_cast<float>(top)));
-    methods.push_back(record.method);
+    pictures.add(to_display(picture, result.exposure.factor), record.method);
+    errors.add(false_color(error, static_cast<float>(top)), record.method);
   }
-  captions.insert(captions.end(), methods.begin(), methods.end());
   const std::string stem = distance_stem(result.distance, "all");
-  write_png(folder / "images" / (stem + ".png"), labelled_strip(pictures, captions));
-  if (errors.empty()) return;  // no method could be drawn
-  const Image strip = labelled_strip(errors, methods);
+  write_png(folder / "images" / (stem + ".png"), pictures.drawn());
+  if (errors.pictures.empty()) return;  // no method could be drawn
+  const Image strip = errors.drawn();
   const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), static_cast<float>(top));
   write_png(folder / "images" / (stem + "_errors.png"), stacked(strip, legend));
 }

@@ -22,6 +22,15 @@ void paste(const Image& part, int left, int top, Image& picture);
 /// Two pictures of equally many channels, the first on top, both from the left edge on.
 [[nodiscard]] Image stacked(const Image& top, const Image& bottom);
 
+/// Images of one height, as labelled_strip takes them.
+struct Strip {
+  std::vector<Image> pictures{};
+  std::vector<std::string> captions{};
+
+  void add(Image picture, const std::string& caption);
+  [[nodiscard]] Image drawn() const;
+};
+
 /// The file name part of the method at `index`. Names that differ only in characters that no file name has would
 /// overwrite each other, and so would one that is called `reference`: such a method has its number added.
 [[nodiscard]] std::string method_stem(std::span<const MethodSpec> methods, std::size_t index);

@@ -131,13 +131,14 @@ PixelParts pixel_parts(const Image& reference, const Interior& interior) {
   return parts;
 }
 
-ErrorCauses error_causes(const CausePictures& pictures, const PixelParts& parts, float exposure) {
+ErrorCauses error_causes(const Image& picture, const Image& reference, const BoundPicture* bound,
+                         const PixelParts& parts, float exposure) {
   ErrorCauses causes;
-  causes.shading = normalized_color_over(pictures.method, pictures.reference, exposure, parts.interior);
-  causes.edges = normalized_color_over(pictures.method, pictures.reference, exposure, parts.edges);
-  if (pictures.bound == nullptr) return causes;
-  causes.filter = normalized_color_over(*pictures.bound, pictures.reference, exposure, *pictures.bound_pixels);
-  causes.method = error_between(pictures.method, *pictures.bound, pictures.reference, exposure, *pictures.bound_pixels);
+  causes.shading = normalized_color_over(picture, reference, exposure, parts.interior);
+  causes.edges = normalized_color_over(picture, reference, exposure, parts.edges);
+  if (bound == nullptr) return causes;
+  causes.filter = normalized_color_over(bound->picture, reference, exposure, bound->pixels);
+  causes.method = error_between(picture, bound->picture, reference, exposure, bound->pixels);
   return causes;
 }
 

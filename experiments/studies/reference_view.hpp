@@ -34,16 +34,16 @@ struct PixelParts {
 /// `reference` is the mean of the samples that `interior` was found with.
 [[nodiscard]] PixelParts pixel_parts(const Image& reference, const Interior& interior);
 
-/// The pictures that errors of one distance are taken between.
-struct CausePictures {
-  const Image& method;
-  const Image& reference;
-  const Image* bound = nullptr;  ///< of `exact`, where it was drawn
-  const Image* bound_pixels = nullptr;
+/// The image of `exact`, and where it was rendered.
+struct BoundPicture {
+  Image picture;  ///< RGBA
+  Image pixels;   ///< a mask of the interior pixels in which it was drawn, and is finite
 };
 
-/// E over the parts, `causes.light` aside. Where the bound is there, filter and method are over its pixels.
-[[nodiscard]] ErrorCauses error_causes(const CausePictures& pictures, const PixelParts& parts, float exposure);
+/// E of a method's picture over the parts, `causes.light` aside. Filter and method are over the pixels of the bound;
+/// null: it was not drawn.
+[[nodiscard]] ErrorCauses error_causes(const Image& picture, const Image& reference, const BoundPicture* bound,
+                                       const PixelParts& parts, float exposure);
 
 /// The standard error that the reference's noise gives E(picture, reference) over `mask`, from the reference's two
 /// halves: half of the difference of a pixel's errors against them has the deviation of its error against the whole.
@@ -88,12 +88,6 @@ void leave_out_infinite(const Image& picture, Image& mask);
 
 /// The mask's pixels in the tiles.
 [[nodiscard]] Image within(const Image& mask, std::span<const Tile> tiles);
-
-/// The image of `exact`, and where it was rendered.
-struct BoundPicture {
-  Image picture;  ///< RGBA
-  Image pixels;   ///< a mask of the interior pixels in which it was drawn, and is finite
-};
 
 /// `exact` over a stage, where this build has it, `use` wants it and it knows every effect of the scene; none
 /// otherwise, and the last reason is added to `warnings`.

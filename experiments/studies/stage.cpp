@@ -259,8 +259,8 @@ StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress)
   return {context().info(), *prepared_->gpu, scene(), known, method, size_, settings_.backend.tile};
 }
 
-SceneInfo Stage::info(const Exposure& exposure) const {
-  SceneInfo info = scene_info(scene(), exposure);
+SceneInfo Stage::info() const {
+  SceneInfo info = scene_info(scene(), {});
   info.triangles = prepared_->triangles;
   return info;
 }

@@ -157,7 +157,7 @@ class Stage {
   [[nodiscard]] const gl::Context& context() const { return prepared_->context; }
   [[nodiscard]] const Scene& scene() const { return prepared_->scene; }
   /// The scene for the head of a report: its triangles as they were given, not as visibility at vertices cuts them.
-  [[nodiscard]] SceneInfo info(const Exposure& exposure) const;
+  [[nodiscard]] SceneInfo info() const;
   [[nodiscard]] const std::vector<EffectDecision>& decisions() const { return prepared_->decisions; }
   [[nodiscard]] const EffectSet& effects() const { return prepared_->effects; }
   [[nodiscard]] const GpuScene& gpu_scene() const { return *prepared_->gpu; }

@@ -50,7 +50,7 @@ TEST(Stage, InfoCountsTheTrianglesThatTheSceneHasAndNotTheirPartsForVisibility) 
   settings.cache.reset();
   const Stage stage(std::move(scene), settings, no_progress);
   EXPECT_GT(stage.scene().meshes.front().indices.size() / 3, given);
-  EXPECT_EQ(stage.info({}).triangles, given);
+  EXPECT_EQ(stage.info().triangles, given);
 }
 
 TEST(Stage, TakesFromAPreparedSceneWhatAnotherStageBakedAndDrawsTheSame) {

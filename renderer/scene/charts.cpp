@@ -123,6 +123,8 @@ class CoveredCells {
 struct Chart {
   Plane plane;
   std::vector<std::uint32_t> triangles;
+  glm::dvec2 low{0.0}, size{0.0};  ///< its bounds on the plane
+  glm::dvec2 corner{0.0};          ///< its lower left corner where it is packed
 };
 
 /// Cuts a mesh into charts.
@@ -144,7 +146,7 @@ class ChartCutter {
       glm::dvec3 mean{0.0};
       for (const std::uint32_t triangle : grow(seed, axis_of(area_normals_[seed]))) mean += area_normals_[triangle];
       const glm::dvec3 axis = axis_of(mean);
-      charts.push_back({Plane(axis), grow(seed, axis)});
+      charts.push_back({.plane = Plane(axis), .triangles = grow(seed, axis)});
       for (const std::uint32_t triangle : charts.back().triangles) taken_[triangle] = true;
     }
     return charts;
@@ -240,78 +242,62 @@ class ChartCutter {
   double cell_ = 1.0;
 };
 
-/// A rectangle to pack, and where its lower left corner went.
-struct Rectangle {
-  glm::dvec2 size;
-  glm::dvec2 corner{0.0};
-};
-
-/// Puts rectangles, the highest first, side by side on shelves of `width`, each with `margin` around it. Returns the
-/// height that they take.
-double pack_shelves(std::span<Rectangle*> by_height, double width, double margin) {
+/// Puts charts, the highest first, side by side on shelves of `width`, each with `margin` around it. Returns the height
+/// that they take.
+double pack_shelves(std::span<Chart*> by_height, double width, double margin) {
   Shelves<double> shelves(width);
-  for (Rectangle* rectangle : by_height) rectangle->corner = shelves.place(rectangle->size + 2.0 * margin) + margin;
+  for (Chart* chart : by_height) chart->corner = shelves.place(chart->size + 2.0 * margin) + margin;
   return shelves.height();
 }
 
-/// Packs rectangles into a square and returns its side.
-double pack(std::vector<Rectangle>& rectangles) {
-  std::vector<Rectangle*> by_height;
+/// Packs charts into a square and returns its side.
+double pack(std::vector<Chart>& charts) {
+  std::vector<Chart*> by_height;
   double area = 0.0, widest = 0.0;
-  for (Rectangle& rectangle : rectangles) {
-    by_height.push_back(&rectangle);
-    area += rectangle.size.x * rectangle.size.y;
-    widest = std::max({widest, rectangle.size.x, rectangle.size.y});
+  for (Chart& chart : charts) {
+    by_height.push_back(&chart);
+    area += chart.size.x * chart.size.y;
+    widest = std::max({widest, chart.size.x, chart.size.y});
   }
-  std::ranges::stable_sort(by_height, std::ranges::greater{}, [](const Rectangle* r) { return r->size.y; });
+  std::ranges::stable_sort(by_height, std::ranges::greater{}, [](const Chart* chart) { return chart->size.y; });
   // The smallest side, within 1%, that takes them all.
   double side = std::max({std::sqrt(area), widest / (1.0 - 2.0 * gap), 1e-30});
   while (pack_shelves(by_height, side, gap * side) > side) side *= 1.01;
   return side;
 }
 
-/// A chart's bounds on its plane.
-struct FlatBounds {
+void find_bounds(const Mesh& mesh, Chart& chart) {
   glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
-};
-
-FlatBounds bounds_of(const Chart& chart, const Mesh& mesh) {
-  FlatBounds bounds;
   for (const std::uint32_t triangle : chart.triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Vertex& vertex = mesh.vertices[mesh.indices[3 * std::size_t{triangle} + corner]];
       const glm::dvec2 point = chart.plane.flat(glm::dvec3{vertex.position});
-      bounds.low = glm::min(bounds.low, point);
-      bounds.high = glm::max(bounds.high, point);
+      low = glm::min(low, point);
+      high = glm::max(high, point);
     }
   }
-  return bounds;
+  chart.low = low;
+  chart.size = high - low;
 }
 
 /// Gives every chart that meets at a vertex a vertex of its own there, with its position in the square as uv.
 /// What no chart has stays at (0, 0).
-void lay_out(const std::vector<Chart>& charts, Mesh& mesh) {
-  std::vector<Rectangle> rectangles;
-  std::vector<glm::dvec2> corners;  // lower left of each chart on its plane
-  for (const Chart& chart : charts) {
-    const FlatBounds bounds = bounds_of(chart, mesh);
-    rectangles.push_back({bounds.high - bounds.low});
-    corners.push_back(bounds.low);
-  }
-  const double side = pack(rectangles);
+void lay_out(std::vector<Chart> charts, Mesh& mesh) {
+  for (Chart& chart : charts) find_bounds(mesh, chart);
+  const double side = pack(charts);
   for (Vertex& vertex : mesh.vertices) vertex.uv0 = vertex.uv1 = glm::vec2{0.0F};
-  std::vector<std::pair<std::size_t, std::uint32_t>> latest(mesh.vertices.size(), {charts.size(), none});
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    for (const std::uint32_t triangle : charts[i].triangles) {
+  std::vector<std::pair<const Chart*, std::uint32_t>> latest(mesh.vertices.size(), {nullptr, none});
+  for (const Chart& chart : charts) {
+    for (const std::uint32_t triangle : chart.triangles) {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         std::uint32_t& index = mesh.indices[3 * std::size_t{triangle} + corner];
-        auto& [chart, copy] = latest[index];
-        if (chart != i) {
+        auto& [latest_chart, copy] = latest[index];
+        if (latest_chart != &chart) {
           Vertex vertex = mesh.vertices[index];
-          const glm::dvec2 on_plane = charts[i].plane.flat(glm::dvec3{vertex.position}) - corners[i];
-          const glm::dvec2 on_square = (on_plane + rectangles[i].corner) / side;
+          const glm::dvec2 on_plane = chart.plane.flat(glm::dvec3{vertex.position}) - chart.low;
+          const glm::dvec2 on_square = (on_plane + chart.corner) / side;
           vertex.uv0 = vertex.uv1 = glm::vec2{on_square.x, 1.0 - on_square.y};
-          chart = i;
+          latest_chart = &chart;
           copy = static_cast<std::uint32_t>(mesh.vertices.size());
           mesh.vertices.push_back(vertex);
         }

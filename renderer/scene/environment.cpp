@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -38,19 +39,21 @@ std::vector<Overlap> overlaps(const std::vector<double>& source, const std::vect
   return out;
 }
 
+// The edges of `count` parts of an axis, edge i at `place` (i).
+template <class Place>
+std::vector<double> edges(int count, const Place& place) {
+  std::vector<double> out;
+  for (int i = 0; i <= count; ++i) out.push_back(place(i));
+  return out;
+}
+
 std::vector<double> column_edges(int width) {
-  std::vector<double> edges;
-  edges.reserve(static_cast<std::size_t>(width) + 1);
-  for (int i = 0; i <= width; ++i) edges.push_back(static_cast<double>(i) / width);
-  return edges;
+  return edges(width, [=](int i) { return static_cast<double>(i) / width; });
 }
 
 // In -cos theta, in which equal lengths are equal solid angles.
 std::vector<double> row_edges(int height) {
-  std::vector<double> edges;
-  edges.reserve(static_cast<std::size_t>(height) + 1);
-  for (int i = 0; i <= height; ++i) edges.push_back(-std::cos(pi * i / height));
-  return edges;
+  return edges(height, [=](int i) { return -std::cos(pi * i / height); });
 }
 
 void require_finite(const Image& image, const std::string& name) {
@@ -149,19 +152,14 @@ constexpr double largest_texel = 5e-4;  // steradians: 1.3 degrees per side
 constexpr double smallest_disc = 0.5 * pi / 180.0;
 constexpr double texels_in_disc = 1.5;
 
-glm::dvec3 radiance_at(const Image& map, int x, int y) {
-  const auto texel = map.at(x, y);
-  return {texel[0], texel[1], texel[2]};
-}
-
 double all_channels(const glm::dvec3& color) { return color.r + color.g + color.b; }
 
-// An environment's texels, as they are in `map`, with their solid angles and directions.
+// An environment's texels with their solid angles and directions.
 class Sky {
  public:
-  Sky(const Environment& environment, const Image& map)
+  explicit Sky(const Environment& environment)
       : environment_(&environment),
-        map_(&map),
+        map_(environment.radiance.get()),
         solid_angles_(row_solid_angles(map_->width, map_->height)),
         disc_(std::max(smallest_disc, texels_in_disc * 2.0 * pi / map_->width)) {}
 
@@ -170,19 +168,16 @@ class Sky {
   }
 
   [[nodiscard]] glm::ivec2 brightest() const {
-    glm::ivec2 at(0);
-    double most = 0.0;
-    for (int y = 0; y < map_->height; ++y) {
-      for (int x = 0; x < map_->width; ++x) {
-        const double radiance = all_channels(radiance_at(*map_, x, y));
-        if (radiance > most) at = {x, y};
-        most = std::max(most, radiance);
-      }
-    }
-    return at;
+    std::vector<double> radiance;
+    for (std::size_t i = 0; i < map_->texel_count(); ++i)
+      radiance.push_back(static_cast<double>(map_->texels[3 * i]) + map_->texels[3 * i + 1] + map_->texels[3 * i + 2]);
+    const auto texel = static_cast<int>(std::ranges::max_element(radiance) - radiance.begin());
+    return {texel % map_->width, texel / map_->width};
   }
 
-  [[nodiscard]] glm::dvec3 radiance(const glm::ivec2& texel) const { return radiance_at(*map_, texel.x, texel.y); }
+  [[nodiscard]] glm::dvec3 radiance(const glm::ivec2& texel) const {
+    return glm::make_vec3(map_->at(texel.x, texel.y).data());
+  }
 
   [[nodiscard]] glm::dvec3 direction(int x, int y) const {
     return environment_direction(*environment_, (x + 0.5) / map_->width, (y + 0.5) / map_->height);
@@ -199,7 +194,7 @@ class Sky {
       for (int x = 0; x < map_->width; ++x) {
         const double angle = std::acos(std::clamp(glm::dot(direction(x, y), centre), -1.0, 1.0)) / disc_;
         if (angle >= least && angle < most)
-          look(glm::ivec2(x, y), radiance_at(*map_, x, y), solid_angles_[static_cast<std::size_t>(y)]);
+          look(glm::ivec2(x, y), radiance({x, y}), solid_angles_[static_cast<std::size_t>(y)]);
       }
     }
   }
@@ -274,9 +269,9 @@ glm::dvec2 environment_uv(const Environment& environment, const glm::dvec3& dire
 glm::vec3 environment_radiance(const Environment& environment, const glm::dvec3& direction) {
   const Image& map = *environment.radiance;
   const glm::dvec2 uv = environment_uv(environment, direction);
-  const auto texel = map.at(std::min(static_cast<int>(uv.x * map.width), map.width - 1),
-                            std::min(static_cast<int>(uv.y * map.height), map.height - 1));
-  return {texel[0], texel[1], texel[2]};
+  return glm::make_vec3(map.at(std::min(static_cast<int>(uv.x * map.width), map.width - 1),
+                               std::min(static_cast<int>(uv.y * map.height), map.height - 1))
+                            .data());
 }
 
 std::vector<double> row_solid_angles(int width, int height) {
@@ -310,10 +305,7 @@ glm::dvec3 mean_radiance(const Image& radiance) {
   glm::dvec3 sum(0.0);
   for (int y = 0; y < radiance.height; ++y) {
     glm::dvec3 row(0.0);
-    for (int x = 0; x < radiance.width; ++x) {
-      const auto texel = radiance.at(x, y);
-      row += glm::dvec3(texel[0], texel[1], texel[2]);
-    }
+    for (int x = 0; x < radiance.width; ++x) row += glm::dvec3(glm::make_vec3(radiance.at(x, y).data()));
     sum += solid_angles[static_cast<std::size_t>(y)] * row;
   }
   return sum / (4.0 * pi);
@@ -362,10 +354,10 @@ Environment sky_environment(const SkySettings& settings) {
 SunsApart suns_apart(const Environment& environment) {
   SunsApart apart{.suns = {}, .rest = environment};
   const double all = all_channels(4.0 * pi * mean_radiance(*environment.radiance));
-  if (!(all > 0.0) || !Sky(environment, *environment.radiance).has_small_texels()) return apart;
+  if (!(all > 0.0) || !Sky(environment).has_small_texels()) return apart;
   std::shared_ptr<Image> rest;
   while (apart.suns.size() < most_small_suns) {
-    const std::optional<Found> found = brightest_sun(Sky(environment, *apart.rest.radiance), all);
+    const std::optional<Found> found = brightest_sun(Sky(apart.rest), all);
     if (!found) break;
     if (!rest) apart.rest.radiance = rest = std::make_shared<Image>(*environment.radiance);
     for (const auto& [texel, radiance] : found->dimmed) {

@@ -122,23 +122,15 @@ class Splitter {
     std::size_t turn = 0;
     while (cuts > 0 && cuts < 3 && !(cut.at(turn) && (cuts == 1 || cut.at((turn + 1) % 3)))) ++turn;
     const std::uint32_t a = t.at(turn), b = t.at((turn + 1) % 3), c = t.at((turn + 2) % 3);
-    if (cuts == 0) {
-      append(parts, {{{a, b, c}}});
-      return false;
+    const std::uint32_t ab = cuts > 0 ? between(a, b) : unused, bc = cuts > 1 ? between(b, c) : unused;
+    if (cuts == 0) append(parts, {{{a, b, c}}});
+    if (cuts == 1) append(parts, {{{a, ab, c}, {ab, b, c}}});
+    if (cuts == 2) append(parts, {{{ab, b, bc}, {a, ab, c}, {ab, bc, c}}});
+    if (cuts == 3) {
+      const std::uint32_t ca = between(c, a);
+      append(parts, {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}});
     }
-    const std::uint32_t ab = between(a, b);
-    if (cuts == 1) {
-      append(parts, {{{a, ab, c}, {ab, b, c}}});
-      return true;
-    }
-    const std::uint32_t bc = between(b, c);
-    if (cuts == 2) {
-      append(parts, {{{ab, b, bc}, {a, ab, c}, {ab, bc, c}}});
-      return true;
-    }
-    const std::uint32_t ca = between(c, a);
-    append(parts, {{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}});
-    return true;
+    return cuts > 0;
   }
 
  private:

@@ -19,14 +19,12 @@
 namespace footprint {
 namespace {
 
-Model load_content(const ModelSettings& settings) {
+Model load_file(const ModelSettings& settings) {
   for (const auto& candidate : settings.candidates) {
     std::error_code error;
     if (settings.candidates.size() > 1 && !std::filesystem::exists(candidate, error)) continue;
     try {
-      Model model = load_model(candidate, settings.selection);
-      if (settings.unwrap) std::ranges::for_each(model.meshes, unwrap);
-      return model;
+      return load_model(candidate, settings.selection);
     } catch (const Error& failed) {
       if (settings.package.empty() || std::filesystem::exists(candidate, error)) throw;
       throw Error(failed.kind(), failed.place(), failed.message(), "install the package " + settings.package);
@@ -49,7 +47,7 @@ TextureMap make_map(const NormalFile& file, std::vector<std::string>& warnings, 
   return map;
 }
 
-Model load_content(const PlaneSettings& settings) {
+Model load_plane(const PlaneSettings& settings) {
   Model model;
   Material material;
   material.name = "plane";
@@ -95,13 +93,6 @@ Material surface_material(const SurfaceContent& content) {
   return material;
 }
 
-Model load_content(const SurfaceContent& content) {
-  Model model;
-  model.materials.push_back(surface_material(content));
-  model.meshes.push_back(content.surface->mesh(content.settings));
-  return model;
-}
-
 /// The model's triangles as one mesh.
 Mesh merged(std::vector<Mesh> meshes) {
   Mesh all = std::move(meshes.front());
@@ -111,13 +102,16 @@ Mesh merged(std::vector<Mesh> meshes) {
   return all;
 }
 
-Model load_content(const DressedModel& content) {
-  ModelSettings undressed = content.model;
-  undressed.unwrap = false;
-  Model model = load_content(undressed);
-  if (!model.meshes.empty()) model.meshes = {merged(std::move(model.meshes))};
-  if (content.model.unwrap) std::ranges::for_each(model.meshes, unwrap);
-  model.materials = {surface_material(content.surface)};
+Model load_content(const PartSettings& part) {
+  if (part.plane) return load_plane(*part.plane);
+  Model model;
+  if (part.model) model = load_file(*part.model);
+  if (part.surface) {
+    if (!part.model) model.meshes.push_back(part.surface->surface->mesh(part.surface->settings));
+    if (!model.meshes.empty()) model.meshes = {merged(std::move(model.meshes))};
+    model.materials = {surface_material(*part.surface)};
+  }
+  if (part.model && part.model->unwrap) std::ranges::for_each(model.meshes, unwrap);
   return model;
 }
 
@@ -372,7 +366,7 @@ void settle_anisotropy(Material& material) {
 }  // namespace
 
 Model load_part(const PartSettings& settings) {
-  Model model = std::visit([](const auto& content) { return load_content(content); }, settings.content);
+  Model model = load_content(settings);
   std::optional<TextureMap> layer;
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
   for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);

@@ -124,29 +124,12 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-ModelSettings* model_of(PartSettings& part) {
-  if (auto* dressed = std::get_if<DressedModel>(&part.content)) return &dressed->model;
-  return std::get_if<ModelSettings>(&part.content);
-}
-
-SurfaceContent* surface_of(PartSettings& part) {
-  if (auto* dressed = std::get_if<DressedModel>(&part.content)) return &dressed->surface;
-  return std::get_if<SurfaceContent>(&part.content);
-}
-
-void limit_surfaces(int most_texels, SceneSettings& settings) {
-  for (PartSettings& part : settings.parts) {
-    if (SurfaceContent* surface = surface_of(part))
-      surface->settings.resolution = std::min(surface->settings.resolution, most_texels);
-  }
-}
-
 // Applies a selection to the only model file.
 void select(const ModelSelection& wanted, const std::string& source, SceneSettings& settings) {
   if (wanted.empty()) return;
   std::vector<ModelSettings*> models;
   for (PartSettings& part : settings.parts) {
-    if (ModelSettings* model = model_of(part)) models.push_back(model);
+    if (part.model) models.push_back(&*part.model);
   }
   if (models.size() != 1) {
     throw Error(ErrorKind::usage, source,
@@ -173,7 +156,11 @@ void apply(const SceneOverrides& overrides, SceneSource& source) {
     source.settings.environment.emplace().candidates = {*overrides.environment};
   }
   source.bounds = overrides.bounds;
-  if (overrides.most_texels) limit_surfaces(*overrides.most_texels, source.settings);
+  for (PartSettings& part : source.settings.parts) {
+    if (!part.surface || !overrides.most_texels) continue;
+    int& resolution = part.surface->settings.resolution;
+    resolution = std::min(resolution, *overrides.most_texels);
+  }
 }
 
 SceneSource settings_source(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {
@@ -184,7 +171,7 @@ SceneSource settings_source(const fs::path& file, const std::string& source, std
 
 SceneSource bare_source(const fs::path& file, const std::string& source) {
   SceneSource out{{}, file.stem().string(), source, {}, {}};
-  out.settings.parts.emplace_back().content = ModelSettings{{file}, {}, false, {}};
+  out.settings.parts.emplace_back().model = ModelSettings{{file}, {}, false, {}};
   out.settings.supply_environment = true;
   return out;
 }

@@ -45,19 +45,15 @@ struct Encoding {
   std::size_t size = 0;
 };
 
-std::size_t whole(const tinygltf::Value& extension, const char* key) {
-  return extension.Has(key) ? static_cast<std::size_t>(extension.Get(key).GetNumberAsInt()) : 0;
-}
-
-Encoding encoding_of(const tinygltf::Model& model, const tinygltf::Value& extension) {
-  Encoding out{.count = whole(extension, "count"),
-               .stride = whole(extension, "byteStride"),
-               .mode = extension.Get("mode").Get<std::string>(),
-               .filter = extension.Has("filter") ? extension.Get("filter").Get<std::string>() : "NONE",
+Encoding encoding_of(const tinygltf::Model& model, const nlohmann::json& extension) {
+  Encoding out{.count = extension["count"].get<std::size_t>(),
+               .stride = extension["byteStride"].get<std::size_t>(),
+               .mode = extension["mode"].get<std::string>(),
+               .filter = extension.value("filter", "NONE"),
                .data = nullptr,
-               .size = whole(extension, "byteLength")};
-  const auto& bytes = model.buffers[whole(extension, "buffer")].data;
-  const std::size_t offset = whole(extension, "byteOffset");
+               .size = extension["byteLength"].get<std::size_t>()};
+  const auto& bytes = model.buffers[extension["buffer"].get<std::size_t>()].data;
+  const auto offset = extension.value("byteOffset", std::size_t{0});
   if (offset > bytes.size() || out.size > bytes.size() - offset)
     refuse_gltf(meshopt_extension, "its data does not lie within its buffer");
   out.data = bytes.data() + offset;
@@ -206,18 +202,16 @@ void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor)
   point_at(target, add_view(model, std::move(bytes)));
 }
 
-void decode_primitive(tinygltf::Model& model, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
+void decode_primitive(tinygltf::Model& model, const tinygltf::Primitive& primitive, const nlohmann::json& extension) {
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end() || primitive.indices < 0)
     refuse_gltf(draco_extension, "a compressed primitive needs accessors for POSITION and indices");
   if (model.accessors[static_cast<std::size_t>(position->second)].bufferView >= 0) return;
   if (primitive.mode != TINYGLTF_MODE_TRIANGLES) refuse_gltf(draco_extension, "only triangles are read, no strips");
-  const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension.Get("bufferView").GetNumberAsInt());
-  const tinygltf::Value& ids = extension.Get("attributes");
-  for (const std::string& name : ids.Keys()) {
+  const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension["bufferView"].get<int>());
+  for (const auto& [name, id] : extension["attributes"].items()) {
     const auto accessor = primitive.attributes.find(name);
-    if (accessor != primitive.attributes.end())
-      take_attribute(model, *mesh, name, ids.Get(name).GetNumberAsInt(), accessor->second);
+    if (accessor != primitive.attributes.end()) take_attribute(model, *mesh, name, id.get<int>(), accessor->second);
   }
   take_indices(model, *mesh, primitive.indices);
 }
@@ -246,18 +240,18 @@ bool fill_fallback_buffers(nlohmann::json& document) {
   return true;
 }
 
-void decode_meshopt(tinygltf::Model& model) {
-  for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
-    tinygltf::BufferView& view = model.bufferViews[i];
-    const auto extension = view.extensions.find(meshopt_extension);
-    if (extension == view.extensions.end()) continue;
+void decode_meshopt(GltfDocument& document) {
+  const nlohmann::json views = document.json.value("bufferViews", nlohmann::json::array());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!is_compressed(views[i])) continue;
     try {
-      const Encoding encoding = encoding_of(model, extension->second);
+      tinygltf::BufferView& view = document.model.bufferViews[i];
+      const Encoding encoding = encoding_of(document.model, views[i]["extensions"][meshopt_extension]);
       check(encoding, view.byteLength);
       std::vector<unsigned char> bytes = decoded(encoding);
-      view.buffer = static_cast<int>(model.buffers.size());
+      view.buffer = static_cast<int>(document.model.buffers.size());
       view.byteOffset = 0;
-      model.buffers.emplace_back().data = std::move(bytes);
+      document.model.buffers.emplace_back().data = std::move(bytes);
     } catch (const Error& error) {
       throw error.within(fmt::format("bufferViews[{}]", i));
     }
@@ -280,14 +274,15 @@ bool fill_draco_indices(nlohmann::json& document) {
   return filled;
 }
 
-void decode_draco(tinygltf::Model& model) {
+void decode_draco(GltfDocument& document) {
+  const nlohmann::json::json_pointer draco = nlohmann::json::json_pointer("/extensions") / draco_extension;
+  tinygltf::Model& model = document.model;
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
-      const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
-      const auto extension = primitive.extensions.find(draco_extension);
-      if (extension == primitive.extensions.end()) continue;
+      const nlohmann::json& primitive = document.json["meshes"][m]["primitives"][p];
+      if (!primitive.contains(draco)) continue;
       try {
-        decode_primitive(model, primitive, extension->second);
+        decode_primitive(model, model.meshes[m].primitives[p], primitive[draco]);
       } catch (const Error& error) {
         throw error.within(fmt::format("mesh {} `{:.80}`, primitive {}", m, model.meshes[m].name, p));
       }

@@ -161,8 +161,8 @@ GltfDocument read_gltf(const std::filesystem::path& file) {
     check_gltf_json(document.json);
     document.model =
         parse_changed(bytes, binary, document.json, std::filesystem::absolute(file).parent_path().string());
-    decode_meshopt(document.model);
-    decode_draco(document.model);
+    decode_meshopt(document);
+    decode_draco(document);
     return document;
   } catch (const Error& error) {
     throw error.within(file.string());

@@ -69,7 +69,7 @@ inline constexpr std::uint64_t largest_element_count = std::uint64_t{1} << 26U;
 
 /// Decodes every compressed buffer view into its own buffer. Throws Error (usage) that names the buffer view: damaged
 /// data, data outside of its buffer, or an invalid size, mode or filter.
-void decode_meshopt(tinygltf::Model& model);
+void decode_meshopt(GltfDocument& document);
 
 /// Assigns the compressed data's buffer view to accessors of indices without one, which tinygltf refuses; decode_draco
 /// replaces it. Returns whether there are any. The document must be checked.
@@ -78,6 +78,6 @@ void decode_meshopt(tinygltf::Model& model);
 /// Decodes every compressed primitive into its own buffers and points its accessors there. Primitives with uncompressed
 /// buffer views are not changed. Throws Error (usage) that names the primitive: damaged data, or counts, components or
 /// types that differ from the accessors'.
-void decode_draco(tinygltf::Model& model);
+void decode_draco(GltfDocument& document);
 
 }  // namespace footprint

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/type_ptr.hpp>
 #include <map>
+#include <numeric>
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/geometry.hpp"
@@ -54,11 +56,9 @@ void read_positions(Builder& builder) {
   const auto values = read_attribute(builder, "POSITION", 3);
   builder.vertices.resize(values.size() / 3);
   for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
-    const glm::vec3 position{values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(position[axis])) refuse_gltf(fmt::format("vertex {}", i), "the position is not finite");
-    }
-    builder.vertices[i].position = position;
+    const glm::vec3 position = builder.vertices[i].position = glm::make_vec3(&values[3 * i]);
+    if (glm::any(glm::isnan(position) || glm::isinf(position)))
+      refuse_gltf(fmt::format("vertex {}", i), "the position is not finite");
   }
 }
 
@@ -69,10 +69,8 @@ void read_frames(Builder& builder) {
   builder.has_tangents = builder.has_normals && !tangents.empty();  // glTF 2.0: tangents without normals are ignored
   for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
     Vertex& vertex = builder.vertices[i];
-    if (builder.has_normals) vertex.normal = {normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]};
-    if (builder.has_tangents) {
-      vertex.tangent = {tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2], tangents[4 * i + 3]};
-    }
+    if (builder.has_normals) vertex.normal = glm::make_vec3(&normals[3 * i]);
+    if (builder.has_tangents) vertex.tangent = glm::make_vec4(&tangents[4 * i]);
   }
 }
 
@@ -130,17 +128,12 @@ void check_map_coordinates(const Builder& builder, const Material& material, boo
 }
 
 void read_triangles(Builder& builder) {
-  std::vector<std::uint32_t> list;
-  if (builder.primitive.indices >= 0) {
-    list = read_indices(builder.model, builder.primitive.indices);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (list[i] >= builder.vertices.size()) {
-        refuse_gltf(fmt::format("index {}", i), fmt::format("names vertex {} of {}", list[i], builder.vertices.size()));
-      }
-    }
-  } else {
-    list.resize(builder.vertices.size());
-    for (std::uint32_t i = 0; i < list.size(); ++i) list[i] = i;
+  std::vector<std::uint32_t> list(builder.vertices.size());
+  std::iota(list.begin(), list.end(), 0U);
+  if (builder.primitive.indices >= 0) list = read_indices(builder.model, builder.primitive.indices);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] >= builder.vertices.size())
+      refuse_gltf(fmt::format("index {}", i), fmt::format("names vertex {} of {}", list[i], builder.vertices.size()));
   }
   const int mode = builder.primitive.mode;
   const Topology topology = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? Topology::strip
@@ -159,7 +152,7 @@ void morph(Builder& builder, const std::vector<double>& weights) {
     const auto add = [&](const std::string& name, auto to) {
       const std::vector<float> values = read_attribute(builder, builder.primitive.targets[t], name, 3);
       for (std::size_t i = 0; i < values.size() / 3; ++i)
-        to(builder.vertices[i], weight * glm::vec3{values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+        to(builder.vertices[i], weight * glm::make_vec3(&values[3 * i]));
     };
     add("POSITION", [](Vertex& vertex, const glm::vec3& shift) { vertex.position += shift; });
     if (builder.has_normals) add("NORMAL", [](Vertex& vertex, const glm::vec3& shift) { vertex.normal += shift; });

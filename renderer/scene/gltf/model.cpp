@@ -12,6 +12,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/process.hpp"
+#include "renderer/scene/geometry.hpp"
 #include "renderer/scene/gltf/check.hpp"
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/gltf/material.hpp"
@@ -161,6 +162,7 @@ std::vector<int> root_nodes(const tinygltf::Model& model, const std::optional<st
 
 /// A camera with its node's transform.
 struct PlacedCamera {
+  std::string name;
   int camera;
   glm::dmat4 world;
 };
@@ -197,9 +199,8 @@ class Gatherer {
     for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
   }
 
-  /// In the order of the nodes, with names.
+  /// In the order of the nodes.
   [[nodiscard]] const std::vector<PlacedCamera>& cameras() const { return cameras_; }
-  [[nodiscard]] const std::vector<std::string>& camera_names() const { return camera_names_; }
 
  private:
   struct Pending {
@@ -212,8 +213,7 @@ class Gatherer {
     if (node.camera >= 0) {
       const std::string& own = document_.model.cameras[static_cast<std::size_t>(node.camera)].name;
       const std::string numbered = fmt::format("camera {}", cameras_.size());
-      camera_names_.push_back(!own.empty() ? own : !node.name.empty() ? node.name : numbered);
-      cameras_.push_back({node.camera, world});
+      cameras_.push_back({!own.empty() ? own : !node.name.empty() ? node.name : numbered, node.camera, world});
     }
     if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end()) {
       result_.lights.push_back(convert_light(document_.model, light->second.Get("light").GetNumberAsInt(), world));
@@ -226,12 +226,12 @@ class Gatherer {
       const int material = materials_.use(material_in_variant(primitives[i], variant_));
       auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), pose,
                                     materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
-      if (part) merge(std::move(*part), material);
+      if (part) merge(*part, material);
     }
   }
 
   /// One mesh per material: fewer draw calls.
-  void merge(Mesh part, int material) {
+  void merge(const Mesh& part, int material) {
     index_count_ += part.indices.size();
     if (index_count_ / 3 > largest_element_count) {
       refuse_gltf({}, fmt::format("more than {} triangles", largest_element_count), "use a smaller model");
@@ -239,9 +239,7 @@ class Gatherer {
     Mesh& whole = meshes_[material];
     whole.name = materials_.materials()[static_cast<std::size_t>(material)].name;
     whole.material = material;
-    const auto base = static_cast<std::uint32_t>(whole.vertices.size());
-    whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
-    for (const std::uint32_t index : part.indices) whole.indices.push_back(base + index);
+    append(whole, part);
   }
 
   const GltfDocument& document_;
@@ -249,7 +247,6 @@ class Gatherer {
   std::optional<std::size_t> variant_;
   Model& result_;
   std::vector<PlacedCamera> cameras_;
-  std::vector<std::string> camera_names_;
   GltfMaterials materials_;
   std::map<int, Mesh> meshes_;
   std::uint64_t index_count_ = 0;
@@ -266,10 +263,10 @@ void warn_left_out(const tinygltf::Model& source, Model& result) {
 }
 
 /// Selects the requested camera, else the first.
-void take_camera(const tinygltf::Model& source, const Gatherer& gathered, const std::optional<std::string>& wanted,
-                 Model& result) {
-  const std::vector<PlacedCamera>& cameras = gathered.cameras();
-  ModelChoice& choice = result.choices.emplace_back(ModelChoice{"camera", gathered.camera_names(), {}});
+void take_camera(const tinygltf::Model& source, const std::vector<PlacedCamera>& cameras,
+                 const std::optional<std::string>& wanted, Model& result) {
+  ModelChoice& choice = result.choices.emplace_back(ModelChoice{"camera", {}, {}});
+  for (const PlacedCamera& camera : cameras) choice.names.push_back(camera.name);
   if (wanted) {
     choice.taken = find_choice(choice, *wanted);
   } else if (!cameras.empty()) {
@@ -303,7 +300,7 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
     Gatherer gathered(document, pose, variant.taken, result);
     gathered.gather(root_nodes(document.model, scene.taken));
     result.choices.push_back(scene);
-    take_camera(document.model, gathered, selection.camera, result);
+    take_camera(document.model, gathered.cameras(), selection.camera, result);
     result.choices.push_back(variant);
     result.choices.push_back(animation);
     std::erase_if(result.choices, [](const ModelChoice& choice) { return choice.names.empty(); });

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <span>
 
 #include "renderer/core/error.hpp"
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t deepest_joint = 1000;
 
 glm::dvec3 vector_or(const std::vector<double>& values, double otherwise) {
-  return values.size() == 3 ? glm::dvec3{values[0], values[1], values[2]} : glm::dvec3{otherwise};
+  return values.size() == 3 ? glm::make_vec3(values.data()) : glm::dvec3{otherwise};
 }
 
 glm::dquat unit(const std::vector<double>& q, const std::string& place) {  // x, y, z, w
@@ -130,10 +131,7 @@ void apply_channel(const tinygltf::Model& model, const tinygltf::Animation& anim
 
 glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place) {
   glm::dmat4 local{1.0};
-  if (node.matrix.size() == 16) {
-    for (int i = 0; i < 16; ++i) local[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-    return local;
-  }
+  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
   if (node.rotation.size() == 4) local = glm::mat4_cast(unit(node.rotation, place));
   const glm::dvec3 scale = vector_or(node.scale, 1.0);
   for (int axis = 0; axis < 3; ++axis) local[axis] *= scale[axis];
@@ -175,10 +173,8 @@ MeshPose Pose::of_mesh(const tinygltf::Node& node, const glm::dmat4& world) cons
   if (!inverse.empty() && inverse.size() < 16 * skin.joints.size())
     refuse_gltf(fmt::format("skins[{}]", node.skin), "has fewer inverse bind matrices than joints");
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    glm::dmat4 to_joint{1.0};
-    for (int i = 0; i < 16 && !inverse.empty(); ++i)
-      to_joint[i / 4][i % 4] = inverse[16 * j + static_cast<std::size_t>(i)];
-    pose.joints.push_back(world_of(skin.joints[j]) * to_joint);
+    const glm::mat4 to_joint = inverse.empty() ? glm::mat4{1.0F} : glm::make_mat4(&inverse[16 * j]);
+    pose.joints.push_back(world_of(skin.joints[j]) * glm::dmat4{to_joint});
   }
   return pose;
 }

@@ -382,8 +382,8 @@ Placement read_placement(const TomlTable& table) {
   return placement;
 }
 
-decltype(PartSettings::content) read_content(const TomlTable& table, const std::filesystem::path& folder,
-                                             std::span<const Surface> surfaces) {
+void read_content(const TomlTable& table, const std::filesystem::path& folder, std::span<const Surface> surfaces,
+                  PartSettings& part) {
   const auto model =
       table.table("model", {"file", "files", "package", "unwrap", "scene", "camera", "variant", "animation", "time"});
   const auto plane = table.table("plane", {"size", "normal_map", "normal_channels", "normal_scale", "height_map",
@@ -395,10 +395,9 @@ decltype(PartSettings::content) read_content(const TomlTable& table, const std::
   if (plane && (model || surface)) {
     throw table.error_at("plane", "excludes `model` and `surface`", "give one of them, or each its own [[part]]");
   }
-  if (plane) return read_plane(*plane, folder);
-  if (!model) return read_surface(*surface, surfaces);
-  if (!surface) return read_model(*model, folder);
-  return DressedModel{read_model(*model, folder), read_surface(*surface, surfaces)};
+  if (model) part.model = read_model(*model, folder);
+  if (plane) part.plane = read_plane(*plane, folder);
+  if (surface) part.surface = read_surface(*surface, surfaces);
 }
 
 const std::vector<std::string> common_brdf_keys{"distribution", "geometry", "fresnel", "diffuse"};
@@ -439,10 +438,9 @@ CoatSettings read_coat(const TomlTable& table, const std::filesystem::path& fold
 }
 
 // A normal map of [maps] replaces a model's, but not one that the same file describes.
-void require_no_normals(const TomlTable& part, const TomlTable& maps, const decltype(PartSettings::content)& content) {
+void require_no_normals(const TomlTable& part, const TomlTable& maps, const std::optional<PlaneSettings>& plane) {
   const std::string_view key = maps.has("height") ? "height" : "normal";
-  const auto* const plane = std::get_if<PlaneSettings>(&content);
-  if (plane != nullptr && plane->normals)
+  if (plane && plane->normals)
     throw maps.error_at(key, "excludes the `normal_map` or `height_map` of [plane]", "give one of them");
   for (const char* other : {"surface", "microgeometry"}) {
     if (part.has(other))
@@ -463,7 +461,7 @@ void require_round_lobes(const TomlTable& table, const PartSettings& part) {
 PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const std::filesystem::path& folder,
                        std::span<const Surface> surfaces) {
   PartSettings part;
-  part.content = read_content(table, folder, surfaces);
+  read_content(table, folder, surfaces, part);
   part.brdf = brdf;
   if (const auto layer =
           table.table("layer", {"bump_map", "slope_filter", "normal_map", "surface", "uv", "strength"})) {
@@ -472,7 +470,7 @@ PartSettings read_part(const TomlTable& table, const BrdfSettings& brdf, const s
   if (const auto maps = table.table("maps", {"roughness", "exponent", "alpha", "kappa", "specular", "diffuse", "normal",
                                              "height", "normal_kappa", "material"})) {
     part.maps = read_maps(*maps, part.brdf, folder);
-    if (part.maps.normals) require_no_normals(table, *maps, part.content);
+    if (part.maps.normals) require_no_normals(table, *maps, part.plane);
     if (part.maps.normal_kappa && table.has("microgeometry")) {
       throw maps->error_at("normal_kappa", "excludes [microgeometry], whose facets spread the normals",
                            "give one of them");

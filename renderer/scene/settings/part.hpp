@@ -129,12 +129,6 @@ struct MicrogeometrySettings {
   int resolution = 256;  ///< texels per side of the normal map for methods without patches
 };
 
-/// A model's triangles with the maps of a surface instead of its own materials.
-struct DressedModel {
-  ModelSettings model;
-  SurfaceContent surface;
-};
-
 /// The placement of a part: scaled, then rotated about the world's x, y and z axes in this order, then translated.
 struct Placement {
   glm::dvec3 translation{0.0};  ///< metres
@@ -145,7 +139,10 @@ struct Placement {
 /// One part of a scene: its content, materials and placement.
 struct PartSettings {
   std::string name;  ///< prefix of the names of meshes and materials; may be empty
-  std::variant<ModelSettings, PlaneSettings, SurfaceContent, DressedModel> content;
+  /// One of them, or a model's triangles with the maps of a surface instead of its own materials.
+  std::optional<ModelSettings> model;
+  std::optional<PlaneSettings> plane;
+  std::optional<SurfaceContent> surface;
   std::optional<LayerSettings> layer;
   BrdfSettings brdf;
   MapSettings maps;

@@ -224,7 +224,7 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
 // Scenes of model files follow viewers, others the papers.
 void set_rules(SceneSettings& settings) {
   const bool models = std::ranges::all_of(settings.parts, [](const PartSettings& part) {
-    return std::holds_alternative<ModelSettings>(part.content) && part.microgeometry.empty();
+    return part.model && !part.surface && part.microgeometry.empty();
   });
   settings.horizon = models ? Horizon::open : Horizon::cut;
   settings.shadows.both_sides = !models;

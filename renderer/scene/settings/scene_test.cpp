@@ -74,7 +74,7 @@ distances = [1, 2, 16]
 uv = [2, 3]
 )");
   EXPECT_EQ(settings.name, "n");
-  const auto& plane = std::get<PlaneSettings>(settings.parts.at(0).content);
+  const PlaneSettings& plane = settings.parts.at(0).plane.value();
   EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
   EXPECT_EQ(plane.normals->path.filename(), "bumps.png");
   EXPECT_TRUE(plane.normals->path.is_absolute());
@@ -205,7 +205,7 @@ TEST(SceneSettings, HeightsAreReadWhereNormalsAre) {
   };
   const PartSettings part =
       read("[plane]\nheight_map = " + heights + "\n[clear_coat]\nheight_map = " + heights).parts[0];
-  expect_heights(std::get<PlaneSettings>(part.content).normals.value());
+  expect_heights(part.plane->normals.value());
   expect_heights(part.coat->normals.value());
   const std::string model = "[model]\nfile = \"a.gltf\"\n";
   expect_heights(read(model + "[maps]\nheight = " + heights).parts[0].maps.normals.value());
@@ -217,7 +217,7 @@ TEST(SceneSettings, HeightsAreReadWhereNormalsAre) {
   EXPECT_EQ(laid.channels, NormalChannels::xy);
   EXPECT_FALSE(laid.heights);
   const PartSettings plain = read("[plane]\nheight_map = { file = \"h\", scale = 1 }").parts[0];
-  EXPECT_EQ(std::get<PlaneSettings>(plain.content).normals->heights->filter, SlopeFilter::central);
+  EXPECT_EQ(plain.plane->normals->heights->filter, SlopeFilter::central);
   const PartSettings layered =
       read("[plane]\n[layer]\nbump_map = \"h\"\nstrength = 1\nslope_filter = \"sobel\"").parts[0];
   EXPECT_EQ(std::get<NormalFile>(layered.layer->content).heights->filter, SlopeFilter::sobel);

@@ -15,7 +15,7 @@ constexpr std::array<std::uint8_t, 12> identifier{0xAB, 'K', 'T', 'X', ' ', '2',
 constexpr std::size_t header_bytes = 80;       // identifier, nine words, and the index of four words and two long ones
 constexpr std::size_t level_entry_bytes = 24;  // offset, length, uncompressed length
 constexpr std::uint32_t block_version = 2;     // of a basic descriptor block: KDFS 1.3
-constexpr std::uint32_t model_rgbsda = 1, primaries_unspecified = 0, transfer_linear = 1;
+constexpr std::uint32_t primaries_unspecified = 0, transfer_linear = 1;
 constexpr std::uint32_t type_signed_float = 0xC0;  // qualifiers of a channel: float and signed
 
 class Bytes {
@@ -41,52 +41,54 @@ std::size_t texel_size(const PrefilteredTexture& texture) {
   return level_bytes(texture.storage, texture.channels, 1, 1);
 }
 
-// KDFS 1.3, section 5.6: the descriptor of blocks. BC5 has two samples of 64 bits, the others one.
-std::vector<std::uint8_t> block_descriptor(const PrefilteredTexture& texture) {
-  constexpr std::uint32_t model_bc1 = 128, model_bc4 = 131, model_bc5 = 132;
-  const Storage storage = texture.storage;
-  const std::uint32_t samples = storage == Storage::bc5 ? 2 : 1, block_size = 24 + 16 * samples;
-  const std::uint32_t model = storage == Storage::bc1 ? model_bc1 : storage == Storage::bc4 ? model_bc4 : model_bc5;
-  Bytes out;
-  out.word(4 + block_size);
-  out.word(0);
-  out.word(block_version | block_size << 16);
-  out.word(model | primaries_unspecified << 8 | transfer_linear << 16);
-  out.word(3 | 3 << 8);  // texel blocks of 4 x 4 x 1 x 1
-  out.word(static_cast<std::uint32_t>(texel_size(texture)));
-  out.word(0);
-  for (std::uint32_t c = 0; c < samples; ++c) {
-    out.word(c * 64 | 63 << 16 | c << 24);
-    out.word(0);
-    out.word(0);
-    out.word(0xFFFFFFFF);
-  }
-  return out.take();
-}
-
 std::size_t rounded_up(std::size_t size, std::size_t step) { return (size + step - 1) / step * step; }
 
-// KDFS 1.3, section 5: one block, one sample per channel.
-std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
-  if (is_block(texture.storage)) return block_descriptor(texture);
-  const bool is_float = texture.storage != Storage::unorm8;
+// A sample of a descriptor: its first bit, its last bit from there, channel, and the numbers that mean 0 (or -1) and 1.
+struct Sample {
+  std::uint32_t offset, last_bit, channel, lower, upper;
+};
+
+// One sample per channel; of blocks 64 bits each (KDFS 1.3, section 5.6), two of BC5 and one of the others.
+std::vector<Sample> samples_of(const PrefilteredTexture& texture) {
+  if (texture.storage == Storage::bc5) return {{0, 63, 0, 0, 0xFFFFFFFF}, {64, 63, 1, 0, 0xFFFFFFFF}};
+  if (is_block(texture.storage)) return {{0, 63, 0, 0, 0xFFFFFFFF}};
   const auto bits = static_cast<std::uint32_t>(8 * channel_bytes(texture.storage));
-  const auto channels = static_cast<std::uint32_t>(texture.channels);
-  const std::uint32_t block_size = 24 + 16 * channels;
+  std::vector<Sample> samples;
+  for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(texture.channels); ++c) {
+    const std::uint32_t id = c == 3 ? 15 : c;  // alpha is 15
+    if (texture.storage == Storage::unorm8) {
+      samples.push_back({c * bits, bits - 1, id, 0, 255});
+    } else {
+      samples.push_back({c * bits, bits - 1, id | type_signed_float, std::bit_cast<std::uint32_t>(-1.0F),
+                         std::bit_cast<std::uint32_t>(1.0F)});
+    }
+  }
+  return samples;
+}
+
+std::uint32_t color_model(Storage storage) {
+  constexpr std::uint32_t model_rgbsda = 1, model_bc1 = 128, model_bc4 = 131, model_bc5 = 132;
+  if (!is_block(storage)) return model_rgbsda;
+  return storage == Storage::bc1 ? model_bc1 : storage == Storage::bc4 ? model_bc4 : model_bc5;
+}
+
+// KDFS 1.3, section 5: one basic block of Khronos' own.
+std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
+  const std::vector<Sample> samples = samples_of(texture);
+  const auto block_size = static_cast<std::uint32_t>(24 + 16 * samples.size());
   Bytes out;
   out.word(4 + block_size);
-  out.word(0);  // Khronos' own basic block
+  out.word(0);
   out.word(block_version | block_size << 16);
-  out.word(model_rgbsda | primaries_unspecified << 8 | transfer_linear << 16);
-  out.word(0);                                                // texel blocks of 1 x 1 x 1 x 1
+  out.word(color_model(texture.storage) | primaries_unspecified << 8 | transfer_linear << 16);
+  out.word(is_block(texture.storage) ? 3 | 3 << 8 : 0);       // texel blocks of 4 x 4 x 1 x 1, or of one texel
   out.word(static_cast<std::uint32_t>(texel_size(texture)));  // bytes of plane 0
   out.word(0);
-  for (std::uint32_t c = 0; c < channels; ++c) {
-    const std::uint32_t id = c == 3 ? 15 : c;  // alpha is 15
-    out.word(c * bits | (bits - 1) << 16 | (id | (is_float ? type_signed_float : 0)) << 24);
+  for (const Sample& sample : samples) {
+    out.word(sample.offset | sample.last_bit << 16 | sample.channel << 24);
     out.word(0);  // its place in the block
-    out.word(is_float ? std::bit_cast<std::uint32_t>(-1.0F) : 0);
-    out.word(is_float ? std::bit_cast<std::uint32_t>(1.0F) : 255);
+    out.word(sample.lower);
+    out.word(sample.upper);
   }
   return out.take();
 }

@@ -3,60 +3,34 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
 #include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
+#include "renderer/core/names.hpp"
 
 namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* wrap_word(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return "repeat";
-    case Wrap::mirrored_repeat:
-      return "mirrored_repeat";
-    case Wrap::clamp_to_edge:
-      break;
-  }
-  return "clamp_to_edge";
-}
-
-const char* filter_word(TextureFilter filter) {
-  switch (filter) {
-    case TextureFilter::trilinear:
-      return "trilinear";
-    case TextureFilter::nearest:
-      return "nearest";
-    case TextureFilter::linear:
-    case TextureFilter::by_level:
-      break;
-  }
-  return "linear";
-}
-
-const char* geometry_word(GeometryTerm geometry) {
-  switch (geometry) {
-    case GeometryTerm::none:
-      return "none";
-    case GeometryTerm::tan:
-      return "tan";
-    case GeometryTerm::ward:
-      return "ward";
-    case GeometryTerm::smith:
-      break;
-  }
-  return "smith";
-}
+constexpr std::array<Word<Wrap>, 3> wraps{
+    {{Wrap::repeat, "repeat"}, {Wrap::mirrored_repeat, "mirrored_repeat"}, {Wrap::clamp_to_edge, "clamp_to_edge"}}};
+constexpr std::array<Word<TextureFilter>, 4> filters{{{TextureFilter::trilinear, "trilinear"},
+                                                      {TextureFilter::nearest, "nearest"},
+                                                      {TextureFilter::linear, "linear"},
+                                                      {TextureFilter::by_level, "linear"}}};
+constexpr std::array<Word<GeometryTerm>, 4> geometries{{{GeometryTerm::none, "none"},
+                                                        {GeometryTerm::tan, "tan"},
+                                                        {GeometryTerm::ward, "ward"},
+                                                        {GeometryTerm::smith, "smith"}}};
 
 Json brdf_json(const BaseBrdf& brdf) {
   const std::string lobe = lobe_text({brdf.distribution, 1.0});
   return {{"distribution", lobe.substr(0, lobe.find(':'))},
-          {"geometry", geometry_word(brdf.geometry)},
+          {"geometry", word_for(geometries, brdf.geometry)},
           {"fresnel", brdf.fresnel == FresnelTerm::schlick ? "schlick" : "none"},
           {"diffuse", brdf.diffuse}};
 }
@@ -73,7 +47,7 @@ Json coordinates_json(const TextureCoordinates& coordinates) {
   for (int column = 0; column < 3; ++column) transform.push_back(numbers(coordinates.transform[column]));
   return {{"set", coordinates.set},
           {"transform", std::move(transform)},
-          {"wrap", {wrap_word(coordinates.wrap[0]), wrap_word(coordinates.wrap[1])}}};
+          {"wrap", {word_for(wraps, coordinates.wrap[0]), word_for(wraps, coordinates.wrap[1])}}};
 }
 
 Json texture_json(const PrefilteredTexture& texture, const TextureFiles& files) {
@@ -84,7 +58,7 @@ Json texture_json(const PrefilteredTexture& texture, const TextureFiles& files) 
           {"storage", storage_name(texture.storage)},
           {"channels", texture.channels},
           {"layers", texture.layers},
-          {"filter", filter_word(texture.filter)},
+          {"filter", word_for(filters, texture.filter)},
           {"coordinates", coordinates_json(texture.coordinates)},
           {"levels", std::move(levels)},
           {"bytes", byte_count(texture)},

@@ -138,8 +138,8 @@ std::vector<std::uint8_t> with_json(std::span<const std::uint8_t> glb, std::stri
   return out;
 }
 
-// Parses a checked document with changes that tinygltf needs.
-tinygltf::Model parse_changed(std::span<const std::uint8_t> bytes, bool binary, nlohmann::json document,
+// Parses a checked document, which changes where tinygltf needs it.
+tinygltf::Model parse_changed(std::span<const std::uint8_t> bytes, bool binary, nlohmann::json& document,
                               const std::string& folder) {
   const bool has_fallbacks = fill_fallback_buffers(document), has_draco = fill_draco_indices(document);
   if (!has_fallbacks && !has_draco) return parse(bytes, binary, folder);

@@ -149,19 +149,6 @@ void merge(NdfFit& mixture) {
 constexpr double ridge = 1e-5;       // on the unit diagonal, so that nearly equal lobes share instead of cancelling
 constexpr double least_area = 1e-6;  // of the patch, below which a direction sees nothing
 
-// The solution over the members of `free`, with all others 0.
-LobeVector solve_subset(const LobeMatrix& a, const LobeVector& b, std::span<const int> free) {
-  const auto n = static_cast<Eigen::Index>(free.size());
-  LobeMatrix part(n, n);
-  LobeVector side(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    side[i] = b[free[static_cast<std::size_t>(i)]];
-    for (Eigen::Index j = 0; j < n; ++j)
-      part(i, j) = a(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
-  }
-  return part.ldlt().solve(side);
-}
-
 // One pair of directions and one channel.
 class Solver {
  public:
@@ -169,27 +156,26 @@ class Solver {
     const auto n = static_cast<Eigen::Index>(lobes.size());
     matrix_ += ridge * LobeMatrix::Identity(n, n);
     inverse_ = matrix_.ldlt().solve(LobeMatrix::Identity(n, n));
-    for (const SphericalGaussian& lobe : lobes) {
-      norms_.push_back(std::sqrt(convolution(lobe, lobe)));
-      integrals_.push_back(vmf_integral(lobe.sharpness));
+    norms_.resize(n);
+    integrals_.resize(n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const SphericalGaussian& lobe = lobes[static_cast<std::size_t>(j)];
+      norms_[j] = std::sqrt(convolution(lobe, lobe));
+      integrals_[j] = vmf_integral(lobe.sharpness);
     }
   }
 
   /// The masses for right sides `products`, one per lobe.
   [[nodiscard]] LobeVector masses(const LobeVector& products, Energy energy) const {
-    LobeVector scaled = products;
-    for (Eigen::Index j = 0; j < scaled.size(); ++j) scaled[j] /= norms_[static_cast<std::size_t>(j)];
+    const LobeVector scaled = products.cwiseQuotient(norms_);
     LobeVector x = inverse_ * scaled;
     if (energy != Energy::any_sign && (x.array() < 0.0).any()) x = solve_non_negative(matrix_, scaled);
-    for (Eigen::Index j = 0; j < x.size(); ++j) {
-      x[j] *= integrals_[static_cast<std::size_t>(j)] / norms_[static_cast<std::size_t>(j)];
-    }
-    return x;
+    return x.cwiseProduct(integrals_.cwiseQuotient(norms_));
   }
 
  private:
   LobeMatrix matrix_, inverse_;
-  std::vector<double> norms_, integrals_;
+  LobeVector norms_, integrals_;
 };
 
 // Scales masses to the sum `total`. If no lobe reaches the normal, all masses are equal.
@@ -282,14 +268,13 @@ LobeVector solve_non_negative(const LobeMatrix& a, const LobeVector& b) {
     free.push_back(static_cast<int>(next));
     // Step towards the free solution, and fix at 0 those that would become negative, until none does.
     while (!free.empty()) {
-      const LobeVector wanted = solve_subset(a, b, free);
+      const LobeVector wanted = LobeMatrix(a(free, free)).ldlt().solve(LobeVector(b(free)));
       double step = 1.0;
       for (std::size_t i = 0; i < free.size(); ++i) {
         const double from = x[free[i]], to = wanted[static_cast<Eigen::Index>(i)];
         if (to <= 0.0) step = std::min(step, from / std::max(from - to, 1e-300));
       }
-      for (std::size_t i = 0; i < free.size(); ++i)
-        x[free[i]] += step * (wanted[static_cast<Eigen::Index>(i)] - x[free[i]]);
+      x(free) += step * (wanted - x(free));
       if (step >= 1.0) break;
       std::erase_if(free, [&](int i) {
         const bool clamped = x[i] <= threshold;

@@ -94,6 +94,7 @@ void run(int argc, char** argv) {
   register_tan_gmm_benchmarks();
   register_iwasaki_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
+  benchmark::ClearRegisteredBenchmarks();  // the OpenGL context of the frame ends with main
 }
 
 }  // namespace

@@ -20,8 +20,6 @@ target_include_directories(footprint_settings INTERFACE "$<BUILD_INTERFACE:${PRO
 target_compile_features(footprint_settings INTERFACE cxx_std_20)  # for projects that use the build folder
 target_compile_options(footprint_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                                     -Wnon-virtual-dtor -Woverloaded-virtual)
-# results/report/json_archive.hpp takes addresses in a variable that is nowhere defined.
-target_compile_options(footprint_settings INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-undefined-var-template>)
 if(FOOTPRINT_WERROR)
   target_compile_options(footprint_settings INTERFACE -Werror)
 endif()

@@ -43,13 +43,12 @@ std::vector<std::string> with(std::vector<std::string> keys, const std::vector<s
 
 // The value that was read of a key. Errors (usage): it is missing.
 template <class Value>
-Value required(const TomlTable& table, std::string_view key, std::optional<Value> value) {
-  if (!value) refuse_missing(table, key, experiments_document);
-  return *std::move(value);
+Value needed(const TomlTable& table, std::string_view key, std::optional<Value> value) {
+  return required(table, key, std::move(value), experiments_document);
 }
 
 std::string required_word(const TomlTable& table, std::string_view key) {
-  std::string word = required(table, key, table.word(key));
+  std::string word = needed(table, key, table.word(key));
   if (word.empty()) throw table.error_at(key, "is empty", "fill it in");
   return word;
 }
@@ -100,7 +99,7 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
     check_measures(parsed.right, experiment);
     return parsed;
   });
-  const std::size_t expect = required(table, "expect", table.choice("expect", {"reproduced", "not_reproduced"}));
+  const std::size_t expect = needed(table, "expect", table.choice("expect", {"reproduced", "not_reproduced"}));
   Claim claim{.stated = {}, .inequality = std::move(inequality)};
   claim.stated.name = required_word(table, "name");
   claim.stated.text = required_word(table, "text");
@@ -142,14 +141,14 @@ void read_thresholds(const TomlTable& root, Experiment& experiment) {
 
 void read_published(const TomlTable& table, Experiment& experiment) {
   const fs::path file = experiment.file.parent_path() / required_word(table, "file");
-  const std::vector<std::string> figures = required(table, "figures", table.words("figures"));
+  const std::vector<std::string> figures = needed(table, "figures", table.words("figures"));
   const TomlTable root(file, {"paper", "note", "value"});
   std::vector<std::string> known;
   for (const TomlTable& value : root.tables("value", {"figure", "measure", "value", "unit", "note"})) {
     const std::string figure = required_word(value, "figure");
     known.push_back(figure);
     if (std::ranges::find(figures, figure) == figures.end()) continue;
-    const double number = required(value, "value", value.number("value", any_number));
+    const double number = needed(value, "value", value.number("value", any_number));
     const std::string text = required_word(value, "measure");
     Expression measure = at_key(value, "measure", [&] {
       Expression parsed(text, fmt::format("`{:.200}`", text));
@@ -181,7 +180,7 @@ void read_footprints(const TomlTable& root, Experiment& experiment) {
     if (std::ranges::find(experiment.footprints, name, &NamedFootprint::name) != experiment.footprints.end()) {
       throw table.error_at("name", fmt::format("is `{:.80}` as of another footprint", name), "name it otherwise");
     }
-    const auto sides = required(table, "footprint", table.numbers("footprint", 4, {-1e6, 1e6}));
+    const auto sides = needed(table, "footprint", table.numbers("footprint", 4, {-1e6, 1e6}));
     const FootprintRect rect{{sides[0], sides[1]}, {sides[2], sides[3]}};
     at_key(table, "footprint", [&] { check_footprint(rect, ""); });
     experiment.footprints.push_back({.name = name, .rect = rect});

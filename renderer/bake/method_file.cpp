@@ -148,12 +148,11 @@ OptionSpec read_option(const TomlTable& table) {
       return word_option(name, *choices, meaning);
     throw table.error_at("choices", "has a word that cannot be a flag", "use lower-case letters, digits and `_`");
   }
-  const auto range = table.numbers("range", 2, any_number);
-  if (!range) refuse_missing(table, "range", document);
-  if ((*range)[0] > (*range)[1]) throw table.error_at("range", "is empty", "write the smaller number first");
-  const auto value = table.number("default", {(*range)[0], (*range)[1]});
-  if (!value) refuse_missing(table, "default", document);
-  OptionSpec option = number_option(name, *value, (*range)[0], (*range)[1], meaning);
+  const std::vector<double> range = required(table, "range", table.numbers("range", 2, any_number), document);
+  const double low = range[0], high = range[1];
+  if (low > high) throw table.error_at("range", "is empty", "write the smaller number first");
+  const double value = required(table, "default", table.number("default", {low, high}), document);
+  OptionSpec option = number_option(name, value, low, high, meaning);
   option.integer = table.boolean("whole").value_or(false);
   return option;
 }
@@ -209,14 +208,14 @@ EffectSet honoured(const TomlTable& head) {
 PrefilteredTexture read_named_image(const TomlTable& table, const fs::path& folder) {
   const std::string name = identifier(table);
   const fs::path file = folder / required_word(table, "file");
-  const auto filter = table.choice("filter", {"trilinear", "linear", "nearest"});
-  if (!filter) refuse_missing(table, "filter", document);
+  const std::size_t filter =
+      required(table, "filter", table.choice("filter", {"trilinear", "linear", "nearest"}), document);
   Image image = at_key(table, "file", [&] { return read_image(file, Transfer::linear, largest_image); });
   if (!std::ranges::all_of(image.texels, [](float value) { return std::isfinite(value); }))
     throw table.error_at("file", "has values that are not finite", "correct the image");
-  if (*filter == 0) return make_texture(name, mip_chain(std::move(image)), Storage::fp32, {});
+  if (filter == 0) return make_texture(name, mip_chain(std::move(image)), Storage::fp32, {});
   PrefilteredTexture texture = make_level_texture(name, std::move(image), Storage::fp32, {});
-  texture.filter = *filter == 1 ? TextureFilter::linear : TextureFilter::nearest;
+  texture.filter = filter == 1 ? TextureFilter::linear : TextureFilter::nearest;
   return texture;
 }
 

@@ -71,8 +71,9 @@ template <class Value, std::size_t count>
 
 /// The value of a required key. Throws as refuse_missing.
 template <class Value>
-[[nodiscard]] Value required(const TomlTable& table, std::string_view key, std::optional<Value> value) {
-  if (!value) refuse_missing(table, key);
+[[nodiscard]] Value required(const TomlTable& table, std::string_view key, std::optional<Value> value,
+                             std::string_view document = "docs/reference/scenes.md") {
+  if (!value) refuse_missing(table, key, document);
   return *std::move(value);
 }
 

@@ -33,11 +33,6 @@ struct FurtherFigures {
   std::vector<QuantityFigure> quantities;
 };
 
-void fields(auto& archive, Is<FurtherFigures> auto& value) {
-  archive("ndf", value.ndf);
-  archive("quantities", value.quantities);
-}
-
 namespace {
 
 constexpr double not_estimated = std::numeric_limits<double>::quiet_NaN();

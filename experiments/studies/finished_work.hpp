@@ -160,19 +160,6 @@ void fields(auto& archive, Is<DistanceResult> auto& value) {
   archive("warnings", value.warnings);
 }
 
-void fields(auto& archive, Is<ComparisonHead> auto& value) {
-  archive("backend", value.backend);
-  archive("scene", value.scene);
-  archive("reference", value.reference);
-  archive("footprint", value.footprint);
-  archive("way", value.way);
-  archive("frames", value.frames);
-  archive("timed_frames", value.timed_frames);
-  archive("error_scale", value.error_scale);
-  archive("first_warnings", value.first_warnings);
-  archive("last_warnings", value.last_warnings);
-}
-
 /// The name of a frame of an animation in finished work.
 [[nodiscard]] std::string frame_name(std::size_t index);
 

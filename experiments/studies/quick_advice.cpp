@@ -23,35 +23,6 @@
 
 namespace footprint {
 
-void fields(auto& archive, Is<QuickCalibration> auto& value) {
-  archive("footprint", value.footprint);
-  archive("scenes", value.scenes);
-  archive("median_factor", value.median_factor);
-  archive("interval_80", value.interval_80);
-  archive("order_factor", value.order_factor);
-  archive("order_right", value.order_right);
-  archive("choice_right", value.choice_right);
-}
-
-void fields(auto& archive, Is<QuickFilter> auto& value) {
-  archive("footprint", value.footprint);
-  archive("weights", value.weights);
-  archive("costs", value.costs);
-}
-
-void fields(auto& archive, Is<QuickMethod> auto& value) {
-  archive("method", value.method);
-  archive("bytes_per_texel", value.bytes_per_texel);
-  archive("filters", value.filters);
-}
-
-void fields(auto& archive, Is<QuickModel> auto& value) {
-  archive("texels_per_pixel", value.texels_per_pixel);
-  archive("scenes", value.scenes);
-  archive("calibration", value.calibration);
-  archive("methods", value.methods);
-}
-
 namespace {
 
 constexpr double least_error = 1e-6;  // as in the fit

@@ -82,26 +82,6 @@ std::size_t added_bytes(const BakedMethod& baked) {
   return bytes;
 }
 
-}  // namespace
-
-// Found by the archives of core/bytes.hpp. Structured bindings make a new member a compile error here.
-void fields(auto& archive, TextureLevel& level) {
-  auto& [width, height, bytes] = level;
-  archive(width, height, bytes);
-}
-
-void fields(auto& archive, PrefilteredTexture& texture) {
-  auto& [name, storage, channels, layers, filter, coordinates, levels, built] = texture;
-  archive(name, storage, channels, layers, filter, coordinates, levels, built);
-}
-
-void fields(auto& archive, Prefiltered& prefiltered) {
-  auto& [textures, scalars, vectors, notes, surface_coordinates] = prefiltered;
-  archive(textures, scalars, vectors, notes, surface_coordinates);
-}
-
-namespace {
-
 constexpr std::string_view form = "footprint bake 7";  // another number for another layout
 
 }  // namespace

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/core/members.hpp"
+
 namespace footprint {
 
 /// FNV-1a, 64 bit (Fowler, Noll, Vo), of no bytes.
@@ -80,8 +82,8 @@ class ByteSource {
 [[nodiscard]] std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file, std::uint64_t largest);
 
 /// Writes values in this machine's byte order, then a checksum. Values are written piece by piece, so that a file of
-/// gigabytes needs no second copy. A structure is written and read by its `fields(archive, value)`, a template that
-/// calls the archive with all of its members.
+/// gigabytes needs no second copy. A structure is written and read member by member; one that has constructors by its
+/// `fields(archive, value)`, a template that calls the archive with all of its members.
 class ChecksummedWriter {
  public:
   /// form: names the kind and the order of the values; change it with them.
@@ -112,6 +114,8 @@ class ChecksummedWriter {
   void write(const T& value) {
     if constexpr (std::is_trivially_copyable_v<T>) {
       add(value);
+    } else if constexpr (std::is_aggregate_v<T>) {
+      std::apply(*this, members_of(value));
     } else {
       // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): shared with the reader; a writer changes nothing
       fields(*this, const_cast<T&>(value));
@@ -192,6 +196,8 @@ class ChecksummedReader {
   void read(T& value) {
     if constexpr (std::is_trivially_copyable_v<T>) {
       value = get<T>();
+    } else if constexpr (std::is_aggregate_v<T>) {
+      std::apply(*this, members_of(value));
     } else {
       fields(*this, value);
     }

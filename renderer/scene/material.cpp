@@ -5,10 +5,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "renderer/core/members.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -85,8 +87,8 @@ constexpr bool is_plain<Motion> = sizeof(Motion) == (1 + 1) * 8;
 template <>
 constexpr bool is_plain<FootprintFilter> = sizeof(FootprintFilter) == (1 + 1 + 1) * 4;
 
-// Counts values into a hash. Structures are taken apart by structured bindings: one with a field more does not compile
-// until that field is counted.
+// Counts values into a hash, all members of structures. Those that leave a member out, or have many, are taken apart by
+// structured bindings: one with a field more does not compile until that field is counted.
 class Counter {
  public:
   explicit Counter(ContentHash& hash) : hash_(&hash) {}
@@ -119,6 +121,11 @@ class Counter {
 
   void add(const std::string& text) { hash_->add(text); }
 
+  template <class T>
+  requires(std::is_aggregate_v<T> && !is_plain<T>) void add(const T& value) {
+    std::apply([this](const auto&... members) { add_all(members...); }, members_of(value));
+  }
+
   template <class... T>
   void add(const std::variant<T...>& value) {
     add(value.index());
@@ -130,11 +137,6 @@ class Counter {
     add_all(width, height, channels, texels);
   }
 
-  void add(const BaseBrdf& brdf) {
-    const auto& [distribution, geometry, fresnel, diffuse] = brdf;
-    add_all(distribution, geometry, fresnel, diffuse);
-  }
-
   void add(const TextureMap& map) {
     const auto& [name, image, coordinates] = map;
     add(static_cast<bool>(image));
@@ -142,29 +144,9 @@ class Counter {
     add(coordinates);
   }
 
-  void add(const ClearCoat& coat) {
-    const auto& [weight, roughness, weight_map, roughness_map, normal_map] = coat;
-    add_all(weight, roughness, weight_map, roughness_map, normal_map);
-  }
-
-  void add(const SurfaceShare& share) {
-    const auto& [map, first] = share;
-    add_all(map, first);
-  }
-
   void add(const Patch& patch) {
     const auto& [name, period, vertices, triangles, paints, palette] = patch;
     add_all(period, vertices, triangles, paints, palette);
-  }
-
-  void add(const TabulatedBrdf& brdf) {
-    const auto& [values] = brdf;
-    add(values);
-  }
-
-  void add(const Microgeometry& microgeometry) {
-    const auto& [patch, mean_color, brdf] = microgeometry;
-    add_all(patch, mean_color, brdf);
   }
 
   void add(const Material& material) {
@@ -174,36 +156,6 @@ class Counter {
     add_all(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy);
     add_all(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat);
     add_all(share, alpha_cutoff, double_sided, unlit, microgeometry);
-  }
-
-  void add(const Mesh& mesh) {
-    const auto& [name, vertices, indices, material] = mesh;
-    add_all(name, vertices, indices, material);
-  }
-
-  void add(const PointLight& light) {
-    const auto& [position, intensity, range] = light;
-    add_all(position, intensity, range);
-  }
-
-  void add(const SpotLight& light) {
-    const auto& [point, direction, inner, outer] = light;
-    add_all(point, direction, inner, outer);
-  }
-
-  void add(const Camera& camera) {
-    const auto& [world, orthographic, yfov, ymag, znear, zfar, aspect] = camera;
-    add_all(world, orthographic, yfov, ymag, znear, zfar, aspect);
-  }
-
-  void add(const Environment& environment) {
-    const auto& [name, radiance, rotation] = environment;
-    add_all(name, radiance, rotation);
-  }
-
-  void add(const ShadowSettings& shadows) {
-    const auto& [cast, both_sides, resolution] = shadows;
-    add_all(cast, both_sides, resolution);
   }
 
   void add(const Scene& scene) {

@@ -232,11 +232,6 @@ void fields(auto& archive, Image& image) {
   archive(width, height, channels, texels);
 }
 
-void fields(auto& archive, VisibilityField& field) {
-  auto& [layers, meshes, error] = field;
-  archive(layers, meshes, error);
-}
-
 std::vector<std::uint8_t> to_bytes(const VisibilityField& field) {
   return write_checksummed(form, [&](ChecksummedWriter& out) { out(field); });
 }

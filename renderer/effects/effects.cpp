@@ -1,4 +1,4 @@
-// Decisions by predicates over materials or lights; reasons count the materials that fulfil them.
+// A table of predicates over materials, and decisions about maps of normals, meshes, lights and shadows.
 #include "renderer/effects/effects.hpp"
 
 #include <fmt/format.h>
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <optional>
 
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/scene/environment.hpp"
@@ -68,42 +68,92 @@ bool is_flat(const Image& normals) {
   return true;
 }
 
-// The number of materials that fulfil a predicate: "2 of 19 materials".
-struct Count {
-  std::size_t holding = 0, all = 0;
-  [[nodiscard]] std::string text() const {
-    return fmt::format("{} of {} material{}", holding, all, all == 1 ? "" : "s");
-  }
-};
-
-template <class Predicate>
-Count count_materials(const Scene& scene, Predicate fits) {
-  return {static_cast<std::size_t>(std::ranges::count_if(scene.materials, fits)), scene.materials.size()};
-}
-
 template <class Predicate>
 EffectDecision decide(Effect effect, const Scene& scene, Predicate fits, std::string_view on, std::string_view off) {
-  const Count count = count_materials(scene, fits);
-  return {effect, count.holding > 0, count.holding > 0 ? fmt::format("{}: {}", count.text(), on) : std::string(off)};
+  const auto n = std::ranges::count_if(scene.materials, fits);
+  const std::size_t all = scene.materials.size();
+  if (n == 0) return {effect, false, std::string(off)};
+  return {effect, true, fmt::format("{} of {} material{}: {}", n, all, all == 1 ? "" : "s", on)};
 }
+
+bool varies(const std::optional<TextureMap>& map) { return map && channel_varies(map->image.decoded(), 0); }
+
+bool is_rough(const std::optional<TextureMap>& map) { return map && !is_flat(map->image.decoded()); }
 
 bool reflects_diffusely(const Material& m) {
   const bool albedo = m.base_color.r > 0.0F || m.base_color.g > 0.0F || m.base_color.b > 0.0F;
   return m.brdf.diffuse && albedo && (m.metallic < 1.0F || metallic_map(m) != nullptr);
 }
 
-EffectDecision normal_variation(const Scene& scene) {
-  const Count mapped = count_materials(scene, [](const Material& m) { return m.normal_map.has_value(); });
-  const auto rough = [](const Material& m) { return m.normal_map && !is_flat(m.normal_map->image.decoded()); };
-  return decide(Effect::normal_variation, scene, rough, "a normal map that is not flat",
-                mapped.holding == 0 ? "no normal map" : "every normal map is flat");
+bool roughness_varies(const Material& m) {
+  return width_map(m) != nullptr && channel_varies(width_map(m)->image.decoded(), 0);
 }
 
-EffectDecision normal_layers(const Scene& scene) {
-  const Count layered = count_materials(scene, [](const Material& m) { return m.layer_map.has_value(); });
-  const auto rough = [](const Material& m) { return m.layer_map && !is_flat(m.layer_map->image.decoded()); };
-  return decide(Effect::normal_layers, scene, rough, "a detail layer that is not flat",
-                layered.holding == 0 ? "no detail layer" : "every detail layer is flat");
+bool metallic_varies(const Material& m) {
+  return metallic_map(m) != nullptr && channel_varies(metallic_map(m)->image.decoded(), 1);
+}
+
+bool specular_varies(const Material& m) {
+  if (!m.specular_map) return false;
+  const Image image = m.specular_map->image.decoded();
+  return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
+}
+
+// An effect that is on if a material fulfils a predicate.
+struct MaterialEffect {
+  Effect effect;
+  bool (*fits)(const Material& m);
+  std::string_view on, off;
+};
+
+constexpr auto material_effects = std::to_array<MaterialEffect>(
+    {{Effect::diffuse, reflects_diffusely, "a Lambert term with an albedo above 0", "no material reflects diffusely"},
+     {Effect::fresnel, [](const Material& m) { return m.brdf.fresnel == FresnelTerm::schlick; },
+      "the base BRDF has Schlick's term", "the base BRDF has no Fresnel term"},
+     {Effect::masking_shadowing, [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; },
+      "the base BRDF has a geometry term", "the base BRDF has no geometry term"},
+     {Effect::roughness_variation, roughness_varies, "a roughness map that varies",
+      "roughness is constant over each material"},
+     {Effect::multi_lobe, [](const Material& m) { return !m.lobes.empty(); },
+      "facets with lobes about axes of their own", "every facet has one lobe, about its normal"},
+     {Effect::anisotropic_lobe, [](const Material& m) { return m.anisotropy && m.anisotropy->strength > 0.0F; },
+      "a lobe that is wider along one direction", "every lobe is round"},
+     {Effect::base_color_variation, [](const Material& m) { return m.base_color_map.has_value(); }, "a base-colour map",
+      "no base-colour map"},
+     {Effect::metallic_variation, metallic_varies, "a metallic map that varies",
+      "metalness is constant over each material"},
+     {Effect::specular_variation, specular_varies, "a specular map that varies",
+      "the specular colour is constant over each material"},
+     {Effect::clear_coat, [](const Material& m) { return m.coat.has_value(); }, "a clear coat",
+      "no material has a clear coat"},
+     {Effect::coat_weight_variation, [](const Material& m) { return m.coat && varies(m.coat->weight_map); },
+      "a map of the coat's weight that varies", "the coat's weight is constant over each material"},
+     {Effect::coat_width_variation, [](const Material& m) { return m.coat && varies(m.coat->roughness_map); },
+      "a map of the coat's roughness that varies", "the coat's roughness is constant over each material"},
+     {Effect::coat_normal_variation, [](const Material& m) { return m.coat && is_rough(m.coat->normal_map); },
+      "a normal map of the coat that is not flat", "every coat has the mesh's own normals"},
+     {Effect::material_index, [](const Material& m) { return m.share.has_value(); },
+      "one of several on its surface, by a map of indices", "one material a surface"},
+     {Effect::alpha_mask, [](const Material& m) { return m.alpha_cutoff.has_value(); }, "parts cut out by alpha",
+      "no material is cut out by alpha"},
+     {Effect::double_sided, [](const Material& m) { return m.double_sided; }, "seen from both sides",
+      "every material is one-sided"},
+     {Effect::unlit, [](const Material& m) { return m.unlit; }, "a colour that is drawn without light",
+      "every material is lit"},
+     {Effect::microgeometry_visibility, [](const Material& m) { return m.microgeometry != nullptr; },
+      "a patch of small-scale geometry", "no small-scale geometry"},
+     {Effect::microgeometry_colour, [](const Material& m) { return m.microgeometry && needs_colors(*m.microgeometry); },
+      "a patch with colours of its own", "no small-scale geometry with colours of its own"},
+     {Effect::tabulated_brdf, [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; },
+      "facets with a tabulated BRDF", "every facet has the base BRDF"}});
+
+// map: one of normals; word: for it.
+EffectDecision normals(Effect effect, const Scene& scene, std::optional<TextureMap> Material::*map,
+                       std::string_view word) {
+  const bool any = std::ranges::any_of(scene.materials, [&](const Material& m) { return (m.*map).has_value(); });
+  const auto rough = [&](const Material& m) { return is_rough(m.*map); };
+  return decide(effect, scene, rough, fmt::format("a {} that is not flat", word),
+                any ? fmt::format("every {} is flat", word) : fmt::format("no {}", word));
 }
 
 // Looks at the meshes: colours are the vertices', not the material's.
@@ -164,109 +214,23 @@ EffectDecision cast_shadow(const Scene& scene) {
   return {Effect::cast_shadow, true, fmt::format("{}: something is before a surface", fmt::join(blocked, " and "))};
 }
 
-std::vector<EffectDecision> base_brdf_effects(const Scene& scene) {
-  const auto schlick = [](const Material& m) { return m.brdf.fresnel == FresnelTerm::schlick; };
-  const auto geometry = [](const Material& m) { return m.brdf.geometry != GeometryTerm::none; };
-  return {
-      decide(Effect::diffuse, scene, reflects_diffusely, "a Lambert term with an albedo above 0",
-             "no material reflects diffusely"),
-      decide(Effect::fresnel, scene, schlick, "the base BRDF has Schlick's term", "the base BRDF has no Fresnel term"),
-      decide(Effect::masking_shadowing, scene, geometry, "the base BRDF has a geometry term",
-             "the base BRDF has no geometry term")};
-}
-
-std::vector<EffectDecision> map_effects(const Scene& scene) {
-  const auto roughness_varies = [](const Material& m) {
-    return width_map(m) != nullptr && channel_varies(width_map(m)->image.decoded(), 0);
-  };
-  const auto has_lobes = [](const Material& m) { return !m.lobes.empty(); };
-  const auto stretched = [](const Material& m) { return m.anisotropy && m.anisotropy->strength > 0.0F; };
-  const auto colored = [](const Material& m) { return m.base_color_map.has_value(); };
-  const auto metallic_varies = [](const Material& m) {
-    return metallic_map(m) != nullptr && channel_varies(metallic_map(m)->image.decoded(), 1);
-  };
-  const auto specular_varies = [](const Material& m) {
-    if (!m.specular_map) return false;
-    const Image image = m.specular_map->image.decoded();
-    return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
-  };
-  return {normal_variation(scene),
-          normal_layers(scene),
-          decide(Effect::roughness_variation, scene, roughness_varies, "a roughness map that varies",
-                 "roughness is constant over each material"),
-          decide(Effect::multi_lobe, scene, has_lobes, "facets with lobes about axes of their own",
-                 "every facet has one lobe, about its normal"),
-          decide(Effect::anisotropic_lobe, scene, stretched, "a lobe that is wider along one direction",
-                 "every lobe is round"),
-          decide(Effect::base_color_variation, scene, colored, "a base-colour map", "no base-colour map"),
-          vertex_color(scene),
-          decide(Effect::metallic_variation, scene, metallic_varies, "a metallic map that varies",
-                 "metalness is constant over each material"),
-          decide(Effect::specular_variation, scene, specular_varies, "a specular map that varies",
-                 "the specular colour is constant over each material")};
-}
-
-std::vector<EffectDecision> coat_effects(const Scene& scene) {
-  const auto coated = [](const Material& m) { return m.coat.has_value(); };
-  const auto varies = [](const std::optional<TextureMap>& map) {
-    return map && channel_varies(map->image.decoded(), 0);
-  };
-  const auto weight_varies = [&](const Material& m) { return m.coat && varies(m.coat->weight_map); };
-  const auto width_varies = [&](const Material& m) { return m.coat && varies(m.coat->roughness_map); };
-  const auto rough = [](const Material& m) {
-    return m.coat && m.coat->normal_map && !is_flat(m.coat->normal_map->image.decoded());
-  };
-  return {decide(Effect::clear_coat, scene, coated, "a clear coat", "no material has a clear coat"),
-          decide(Effect::coat_weight_variation, scene, weight_varies, "a map of the coat's weight that varies",
-                 "the coat's weight is constant over each material"),
-          decide(Effect::coat_width_variation, scene, width_varies, "a map of the coat's roughness that varies",
-                 "the coat's roughness is constant over each material"),
-          decide(Effect::coat_normal_variation, scene, rough, "a normal map of the coat that is not flat",
-                 "every coat has the mesh's own normals")};
-}
-
-std::vector<EffectDecision> coverage_effects(const Scene& scene) {
-  const auto shared = [](const Material& m) { return m.share.has_value(); };
-  const auto cut_out = [](const Material& m) { return m.alpha_cutoff.has_value(); };
-  const auto double_sided = [](const Material& m) { return m.double_sided; };
-  const auto unlit = [](const Material& m) { return m.unlit; };
-  return {decide(Effect::material_index, scene, shared, "one of several on its surface, by a map of indices",
-                 "one material a surface"),
-          decide(Effect::alpha_mask, scene, cut_out, "parts cut out by alpha", "no material is cut out by alpha"),
-          decide(Effect::double_sided, scene, double_sided, "seen from both sides", "every material is one-sided"),
-          decide(Effect::unlit, scene, unlit, "a colour that is drawn without light", "every material is lit")};
-}
-
-std::vector<EffectDecision> light_effects(const Scene& scene) {
-  return {lights<PointLight>(Effect::point_light, scene, "point"),
-          lights<SpotLight>(Effect::spot_light, scene, "spot"),
-          lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
-          lights<AreaLight>(Effect::area_light, scene, "area"),
-          cast_shadow(scene),
-          environment_light(scene)};
-}
-
-std::vector<EffectDecision> microgeometry_effects(const Scene& scene) {
-  const auto has_patch = [](const Material& m) { return m.microgeometry != nullptr; };
-  const auto coloured = [](const Material& m) { return m.microgeometry && needs_colors(*m.microgeometry); };
-  const auto tabulated = [](const Material& m) { return m.microgeometry && m.microgeometry->brdf; };
-  return {decide(Effect::microgeometry_visibility, scene, has_patch, "a patch of small-scale geometry",
-                 "no small-scale geometry"),
-          decide(Effect::microgeometry_colour, scene, coloured, "a patch with colours of its own",
-                 "no small-scale geometry with colours of its own"),
-          decide(Effect::tabulated_brdf, scene, tabulated, "facets with a tabulated BRDF",
-                 "every facet has the base BRDF")};
-}
-
 }  // namespace
 
 std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
 
 std::vector<EffectDecision> derive_effects(const Scene& scene) {
-  std::vector<EffectDecision> decisions;
-  for (const auto effects :
-       {base_brdf_effects, map_effects, coat_effects, coverage_effects, light_effects, microgeometry_effects})
-    std::ranges::move(effects(scene), std::back_inserter(decisions));
+  std::vector<EffectDecision> decisions{normals(Effect::normal_variation, scene, &Material::normal_map, "normal map"),
+                                        normals(Effect::normal_layers, scene, &Material::layer_map, "detail layer"),
+                                        vertex_color(scene),
+                                        lights<PointLight>(Effect::point_light, scene, "point"),
+                                        lights<SpotLight>(Effect::spot_light, scene, "spot"),
+                                        lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
+                                        lights<AreaLight>(Effect::area_light, scene, "area"),
+                                        cast_shadow(scene),
+                                        environment_light(scene)};
+  for (const MaterialEffect& each : material_effects)
+    decisions.push_back(decide(each.effect, scene, each.fits, each.on, each.off));
+  std::ranges::sort(decisions, {}, &EffectDecision::effect);
   return decisions;
 }
 

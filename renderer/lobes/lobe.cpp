@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {
@@ -24,12 +24,8 @@ constexpr float smallest_concentration = 1e-6F;
 constexpr float largest_exponent = 2e6F;
 constexpr float smallest_variance = 1e-12F;
 
-constexpr std::string_view lobe_hint = "write it as blinn_phong:64, beckmann:0.2, ggx:0.2 or vmf:64";
-
-const std::array<std::string, 4>& distribution_names() {
-  static const std::array<std::string, 4> names{"blinn_phong", "beckmann", "ggx", "vmf"};
-  return names;
-}
+constexpr std::array<Word<NormalDistribution>, 4> distributions{
+    {{blinn_phong, "blinn_phong"}, {beckmann, "beckmann"}, {ggx, "ggx"}, {vmf, "vmf"}}};
 
 bool is_alpha(NormalDistribution distribution) { return distribution == beckmann || distribution == ggx; }
 
@@ -47,8 +43,6 @@ double beckmann_support(double alpha) {
 // u of sin^2 = s2 in the upper half.
 double u_of_sine_squared(double s2) { return s2 >= 1.0 ? 1.0 : s2 / (1.0 + std::sqrt(1.0 - s2)); }
 
-using std::numbers::pi;
-
 constexpr double smallest_amplitude_kappa = 1e-9;  // below it, the limit
 constexpr double smallest_kappa = 0.05;            // of the mean: below it, series
 constexpr double largest_kappa = 20.0;             // above it, tanh is 1 to the last bit
@@ -60,97 +54,54 @@ constexpr double widest = 0.35;          // radians: the support ends well above
 
 Lobe lobe_from_alpha(NormalDistribution distribution, float alpha) {
   const float bounded = std::max(alpha, narrowest_alpha);
-  switch (distribution) {
-    case blinn_phong:
-      return {distribution, 2.0F / (bounded * bounded) - 2.0F};
-    case vmf:
-      return {distribution, 2.0F / (bounded * bounded)};
-    case beckmann:
-    case ggx:
-      break;
-  }
-  return {distribution, bounded};
+  if (is_alpha(distribution)) return {distribution, bounded};
+  const float kappa = 2.0F / (bounded * bounded);
+  return {distribution, distribution == vmf ? kappa : kappa - 2.0F};
 }
 
 Lobe lobe_from_variance(NormalDistribution distribution, float variance) {
+  if (!is_alpha(distribution))
+    return {distribution, std::min(1.0F / std::max(variance, smallest_variance), largest_exponent)};
   const float alpha = std::max(std::sqrt(2.0F * variance), narrowest_alpha);
-  switch (distribution) {
-    case blinn_phong:
-    case vmf:
-      return {distribution, std::min(1.0F / std::max(variance, smallest_variance), largest_exponent)};
-    case ggx:
-      return {distribution, std::min(alpha, 1.0F)};
-    case beckmann:
-      break;
-  }
-  return {distribution, alpha};
+  return {distribution, distribution == ggx ? std::min(alpha, 1.0F) : alpha};
 }
 
 float lobe_variance(const Lobe& lobe) {
   const auto p = static_cast<float>(lobe.parameter);
-  switch (lobe.distribution) {
-    case blinn_phong:
-    case vmf:
-      return 1.0F / std::max(p, smallest_concentration);
-    case beckmann:
-    case ggx:
-      break;
-  }
-  return 0.5F * p * p;
+  return is_alpha(lobe.distribution) ? 0.5F * p * p : 1.0F / std::max(p, smallest_concentration);
 }
 
 float lobe_roughness(const Lobe& lobe) {
   const double value = std::max(static_cast<float>(lobe.parameter), smallest_concentration);
-  switch (lobe.distribution) {
-    case blinn_phong:
-      return static_cast<float>(std::sqrt(std::sqrt(2.0 / (value + 2.0))));
-    case vmf:
-      return static_cast<float>(std::sqrt(std::sqrt(2.0 / value)));
-    case beckmann:
-    case ggx:
-      break;
-  }
-  return static_cast<float>(std::sqrt(value));
+  if (is_alpha(lobe.distribution)) return static_cast<float>(std::sqrt(value));
+  return static_cast<float>(std::sqrt(std::sqrt(2.0 / (lobe.distribution == vmf ? value : value + 2.0))));
 }
 
 Lobe parse_lobe(std::string_view option, const std::string& text) {
   const std::size_t colon = text.find(':');
-  const auto refuse = [&](const std::string& message, const std::string& hint) {
-    return Error(ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, message), hint);
+  const auto refuse = [&](const std::string& message) {
+    return Error(ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, message),
+                 "write it as blinn_phong:64, beckmann:0.2, ggx:0.2 or vmf:64");
   };
-  const std::size_t named = find_word(distribution_names(), text.substr(0, colon), "distribution", option);
-  if (colon == std::string::npos) throw refuse("has no parameter", std::string(lobe_hint));
-  Lobe lobe{static_cast<NormalDistribution>(named), 0.0};
-  const std::string_view digits = std::string_view(text).substr(colon + 1);
-  const char* const end = digits.data() + digits.size();
-  const auto [stop, status] = std::from_chars(digits.data(), end, lobe.parameter);
-  if (status != std::errc{} || stop != end)
-    throw refuse("has a parameter that is not a number", std::string(lobe_hint));
-  const double least = is_alpha(lobe.distribution) ? smallest_alpha : 1e-3;
-  const double most = is_alpha(lobe.distribution) ? 1.0 : 1e6;
-  if (!(lobe.parameter >= least && lobe.parameter <= most)) {
-    throw refuse(fmt::format("is not within {} to {}", least, most), std::string(lobe_hint));
-  }
-  return lobe;
+  const NormalDistribution distribution =
+      word_value(distributions, std::string_view(text).substr(0, colon), "distribution", option);
+  if (colon == std::string::npos) throw refuse("has no parameter");
+  const auto parameter = parse_whole_of<double>(std::string_view(text).substr(colon + 1));
+  if (!parameter) throw refuse("has a parameter that is not a number");
+  const double least = is_alpha(distribution) ? smallest_alpha : 1e-3;
+  const double most = is_alpha(distribution) ? 1.0 : 1e6;
+  if (!(*parameter >= least && *parameter <= most)) throw refuse(fmt::format("is not within {} to {}", least, most));
+  return {distribution, *parameter};
 }
 
 std::string lobe_text(const Lobe& lobe) {
-  return fmt::format("{}:{}", distribution_names().at(static_cast<std::size_t>(lobe.distribution)),
-                     static_cast<float>(lobe.parameter));
+  return fmt::format("{}:{}", word_for(distributions, lobe.distribution), static_cast<float>(lobe.parameter));
 }
 
 double lobe_peak(const Lobe& lobe) {
   const double p = lobe.parameter;
-  switch (lobe.distribution) {
-    case blinn_phong:
-      return (p + 1.0) / (2.0 * pi);
-    case vmf:
-      return vmf_peak(p);
-    case beckmann:
-    case ggx:
-      break;
-  }
-  return 1.0 / (pi * p * p);
+  if (is_alpha(lobe.distribution)) return 1.0 / (pi * p * p);
+  return lobe.distribution == vmf ? vmf_peak(p) : (p + 1.0) / (2.0 * pi);
 }
 
 double lobe_shape(const Lobe& lobe, double u) {
@@ -168,16 +119,9 @@ double lobe_shape(const Lobe& lobe, double u) {
 double lobe_support(const Lobe& lobe) {
   const double p = lobe.parameter;
   const double folds = -std::log(lobe_cutoff);
-  switch (lobe.distribution) {
-    case blinn_phong:
-      return -std::expm1(-folds / p);
-    case vmf:
-      return std::min(folds / p, 2.0);
-    case beckmann:
-      return beckmann_support(p);
-    case ggx:
-      break;
-  }
+  if (lobe.distribution == blinn_phong) return -std::expm1(-folds / p);
+  if (lobe.distribution == vmf) return std::min(folds / p, 2.0);
+  if (lobe.distribution == beckmann) return beckmann_support(p);
   // c^2 + s^2 / alpha^2 = 1 + s^2 (1 / alpha^2 - 1) reaches the root of 1 / cutoff.
   return u_of_sine_squared(p < 1.0 ? (1.0 / std::sqrt(lobe_cutoff) - 1.0) / (1.0 / (p * p) - 1.0) : 1.0);
 }

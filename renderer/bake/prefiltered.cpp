@@ -134,41 +134,30 @@ void require_finite(const std::string& name, const Image& level) {
               "fix the map that it was baked from");
 }
 
-// Before a level of `layers` layers is encoded.
-void require_level(const std::string& name, const Image& layer, std::size_t layers, Storage storage) {
-  require_texels(layer.width, layer.height, layers * level_bytes(storage, layer.channels, layer.width, layer.height),
-                 "a level of texture " + name);
-}
-
-TextureLevel encode_level(const std::string& name, const Image& image, Storage storage, bool signed_range) {
-  require_finite(name, image);
-  require_level(name, image, 1, storage);
-  TextureLevel level{.width = image.width, .height = image.height, .bytes = {}};
-  encode(image, storage, signed_range, level.bytes);
-  return level;
-}
-
-// All levels of all layers, finest first. Each is given back once it is encoded.
-std::vector<TextureLevel> encode_levels(const std::string& name, std::vector<std::vector<Image>>& layers,
-                                        Storage storage) {
-  std::vector<TextureLevel> levels;
+// A plain texture of all levels of all layers, finest first. Each image is freed once it is encoded.
+PrefilteredTexture encoded(std::string name, std::vector<std::vector<Image>> layers, Storage storage,
+                           const TextureCoordinates& coordinates, bool signed_range) {
+  PrefilteredTexture out{.name = std::move(name),
+                         .storage = storage,
+                         .channels = layers.front().front().channels,
+                         .coordinates = coordinates,
+                         .levels = {}};
   for (std::size_t i = 0; i < layers.front().size(); ++i) {
-    const Image& first = layers.front()[i];
-    const int width = first.width, height = first.height, channels = first.channels;
-    require_level(name, first, layers.size(), storage);
-    TextureLevel level{.width = width, .height = height, .bytes = {}};
-    level.bytes.reserve(level_bytes(storage, channels, width, height) * layers.size());
+    const int width = layers.front()[i].width, height = layers.front()[i].height;
+    const std::size_t bytes = layers.size() * level_bytes(storage, out.channels, width, height);
+    require_texels(width, height, bytes, "a level of texture " + out.name);
+    TextureLevel& level = out.levels.emplace_back(TextureLevel{.width = width, .height = height, .bytes = {}});
+    level.bytes.reserve(bytes);
     for (std::vector<Image>& layer : layers) {
       Image& image = layer.at(i);
-      if (image.width != width || image.height != height || image.channels != channels)
-        throw std::logic_error("the layers of texture " + name + " differ in size");
-      require_finite(name, image);
-      encode(image, storage, false, level.bytes);
+      if (image.width != width || image.height != height || image.channels != out.channels)
+        throw std::logic_error("the layers of texture " + out.name + " differ in size");
+      require_finite(out.name, image);
+      encode(image, storage, signed_range, level.bytes);
       image = {};
     }
-    levels.push_back(std::move(level));
   }
-  return levels;
+  return out;
 }
 
 }  // namespace
@@ -176,20 +165,8 @@ std::vector<TextureLevel> encode_levels(const std::string& name, std::vector<std
 std::string_view storage_name(Storage storage) { return word_for(storages, storage); }
 
 std::size_t channel_bytes(Storage storage) {
-  switch (storage) {
-    case Storage::fp32:
-      return 4;
-    case Storage::fp16:
-      return 2;
-    case Storage::unorm8:
-      return 1;
-    case Storage::bc1:
-    case Storage::bc4:
-      return 8;
-    case Storage::bc5:
-      return 16;
-  }
-  return 0;
+  constexpr std::array<std::size_t, 6> bytes{4, 2, 1, 8, 8, 16};
+  return bytes.at(static_cast<std::size_t>(storage));
 }
 
 bool is_block(Storage storage) { return storage >= Storage::bc1; }
@@ -246,18 +223,9 @@ std::size_t finest_texels(const Prefiltered& prefiltered) {
 
 PrefilteredTexture make_texture(std::string name, std::vector<Image> chain, Storage storage,
                                 const TextureCoordinates& coordinates, bool signed_range) {
-  const int channels = chain.front().channels;
-  std::vector<TextureLevel> levels;
-  for (Image& level : chain) {
-    levels.push_back(encode_level(name, level, storage, signed_range));
-    level = {};
-  }
-  return {.name = std::move(name),
-          .storage = storage,
-          .channels = channels,
-          .filter = TextureFilter::trilinear,
-          .coordinates = coordinates,
-          .levels = std::move(levels)};
+  std::vector<std::vector<Image>> layers;  // a list in braces would copy it
+  layers.push_back(std::move(chain));
+  return encoded(std::move(name), std::move(layers), storage, coordinates, signed_range);
 }
 
 PrefilteredTexture make_level_texture(std::string name, Image level, Storage storage,
@@ -271,15 +239,11 @@ PrefilteredTexture make_level_texture(std::string name, Image level, Storage sto
 
 PrefilteredTexture make_array_texture(std::string name, std::vector<std::vector<Image>> layers, Storage storage,
                                       const TextureCoordinates& coordinates, TextureFilter filter) {
-  const int channels = layers.front().front().channels;
-  std::vector<TextureLevel> levels = encode_levels(name, layers, storage);
-  return {.name = std::move(name),
-          .storage = storage,
-          .channels = channels,
-          .layers = static_cast<int>(layers.size()),
-          .filter = filter,
-          .coordinates = coordinates,
-          .levels = std::move(levels)};
+  const std::size_t count = layers.size();
+  PrefilteredTexture texture = encoded(std::move(name), std::move(layers), storage, coordinates, false);
+  texture.layers = static_cast<int>(count);
+  texture.filter = filter;
+  return texture;
 }
 
 PrefilteredTexture make_built_texture(const BuiltTexture& built, const TextureCoordinates& coordinates) {

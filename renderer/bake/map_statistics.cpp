@@ -171,6 +171,13 @@ void add_block(const std::vector<Texel>& texels, Sums& sums) {
   }
 }
 
+void require_size(const Image& map, const Image& normals) {
+  if (map.width == normals.width && map.height == normals.height) return;
+  throw Error(ErrorKind::usage, {},
+              fmt::format("is {}x{}, the normal map {}x{}", map.width, map.height, normals.width, normals.height),
+              "resample one of them");
+}
+
 }  // namespace
 
 double unit_share(const Image& stored) {
@@ -195,12 +202,7 @@ std::vector<LevelStatistics> map_statistics(const Image& normals) {
 }
 
 std::optional<double> correlation_with_spread(const Image& normals, const Image& values, int level) {
-  if (values.width != normals.width || values.height != normals.height) {
-    throw Error(
-        ErrorKind::usage, {},
-        fmt::format("is {}x{}, the normal map {}x{}", values.width, values.height, normals.width, normals.height),
-        "resample one of them");
-  }
+  require_size(values, normals);
   const int columns = blocks_along(normals.width, level);
   const std::vector<Block> blocks = blocks_of(normals, level);
   double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
@@ -225,12 +227,7 @@ std::optional<double> correlation_with_spread(const Image& normals, const Image&
 }
 
 LobeErrors lobe_errors(const Image& normals, const Image& alphas, int level) {
-  const bool fits = alphas.width == normals.width && alphas.height == normals.height;
-  if (alphas.texel_count() != 1 && !fits)
-    throw Error(
-        ErrorKind::usage, {},
-        fmt::format("is {}x{}, the normal map {}x{}", alphas.width, alphas.height, normals.width, normals.height),
-        "resample one of them");
+  if (alphas.texel_count() != 1) require_size(alphas, normals);
   Sampler sampler(normals, alphas);
   Sums sums;
   const int blocks = block_count(level);

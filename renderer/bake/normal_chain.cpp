@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "renderer/bake/material_maps.hpp"
+#include "renderer/bake/slope_moments.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
@@ -19,12 +20,6 @@ void renormalise(Image& normals) {
     if (size < 1e-3F) continue;  // the loader has given it weight 0
     for (int c = 0; c < 3; ++c) n[c] /= size;
   }
-}
-
-Image without_weight(Image weighted) {
-  Image out(weighted.width, weighted.height, 3);
-  for (std::size_t i = 0; i < out.texel_count(); ++i) std::copy_n(&weighted.texels[4 * i], 3, &out.texels[3 * i]);
-  return out;
 }
 
 // x and y of the renormalised means.
@@ -47,9 +42,7 @@ std::vector<Image> mean_normal_chain(const Material& material) { return mean_nor
 
 std::vector<Image> mean_normal_chain(Image normals) {
   renormalise(normals);
-  std::vector<Image> chain = weighted_mip_chain(std::move(normals));
-  for (Image& level : chain) level = without_weight(std::move(level));
-  return chain;
+  return channels_of(weighted_mip_chain(std::move(normals)), {0, 1, 2});
 }
 
 double shortfall_of_length(double length) {

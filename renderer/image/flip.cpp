@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "renderer/core/error.hpp"
@@ -110,11 +111,7 @@ Kernel kernel_of(int radius, Weight weight) {
   return kernel;
 }
 
-double sum_of(const Kernel& kernel) {
-  double sum = 0;
-  for (const double weight : kernel) sum += weight;
-  return sum;
-}
+double sum_of(const Kernel& kernel) { return std::accumulate(kernel.begin(), kernel.end(), 0.0); }
 
 // A contrast sensitivity: a sqrt(pi / b) exp(-pi^2 d^2 / b) over degrees d, and a second one of the same form.
 struct Sensitivity {

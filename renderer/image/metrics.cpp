@@ -242,12 +242,7 @@ Image object_pixels(const Image& reference) {
 }
 
 std::size_t object_pixel_count(const Image& reference) {
-  if (reference.channels != 4) return 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < reference.texel_count(); ++i) {
-    if (covers_whole_pixel(std::span(reference.texels).subspan(4 * i, 4))) ++count;
-  }
-  return count;
+  return static_cast<std::size_t>(std::ranges::count(object_pixels(reference).texels, 1.0F));
 }
 
 }  // namespace footprint

@@ -148,24 +148,17 @@ std::vector<std::string> DebugLog::take() {
 }
 
 std::string gl_error_name(unsigned code) {
-  switch (code) {
-    case GL_NO_ERROR:
-      return "GL_NO_ERROR";
-    case GL_INVALID_ENUM:
-      return "GL_INVALID_ENUM";
-    case GL_INVALID_VALUE:
-      return "GL_INVALID_VALUE";
-    case GL_INVALID_OPERATION:
-      return "GL_INVALID_OPERATION";
-    case GL_INVALID_FRAMEBUFFER_OPERATION:
-      return "GL_INVALID_FRAMEBUFFER_OPERATION";
-    case GL_OUT_OF_MEMORY:
-      return "GL_OUT_OF_MEMORY";
-    case GL_CONTEXT_LOST:
-      return "GL_CONTEXT_LOST: the driver was reset";
-    default:
-      return fmt::format("GL error {:#06x}", code);
-  }
+  static constexpr std::array<Word<unsigned>, 7> names{{
+      {GL_NO_ERROR, "GL_NO_ERROR"},
+      {GL_INVALID_ENUM, "GL_INVALID_ENUM"},
+      {GL_INVALID_VALUE, "GL_INVALID_VALUE"},
+      {GL_INVALID_OPERATION, "GL_INVALID_OPERATION"},
+      {GL_INVALID_FRAMEBUFFER_OPERATION, "GL_INVALID_FRAMEBUFFER_OPERATION"},
+      {GL_OUT_OF_MEMORY, "GL_OUT_OF_MEMORY"},
+      {GL_CONTEXT_LOST, "GL_CONTEXT_LOST: the driver was reset"},
+  }};
+  const auto* const found = std::ranges::find(names, code, &Word<unsigned>::value);
+  return found != names.end() ? std::string(found->name) : fmt::format("GL error {:#06x}", code);
 }
 
 bool is_software_renderer(std::string_view renderer) {

@@ -43,24 +43,21 @@ Prefiltered precomputed(const Method& method, const Scene& scene, std::size_t in
                               : method.precompute(scene.materials.at(index), options, effects, progress);
 }
 
-// Reads one material from the cache, or bakes it and caches it if that is slow.
+// Bakes one material: after its base BRDF changed (`before`), or by reading the cache, which gets a slow bake that it
+// lacks.
 Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
-                  const EffectSet& effects, const Progress& progress, const BakeCache* cache) {
+                  const EffectSet& effects, const Progress& progress, const BakeCache* cache,
+                  const BakedMethod* before) {
+  const Material& material = scene.materials.at(index);
+  if (before != nullptr && method.precompute_brdf)
+    return {method.precompute_brdf(before->materials.at(index), material, options, effects), false};
   if (cache == nullptr || !method.info.slow_precompute)
     return {precomputed(method, scene, index, options, effects, progress), false};
-  const Material& material = scene.materials[index];
   const std::string key = cache->key(method.info.name + method.file_content, material, options, effects);
   if (std::optional<Prefiltered> cached = cache->find(key)) return {*std::move(cached), true};
   Outcome outcome{precomputed(method, scene, index, options, effects, progress), false};
   cache->store(key, outcome.prefiltered);
   return outcome;
-}
-
-// Bakes one material after its base BRDF changed.
-Outcome prefilter_brdf(const Method& method, const Scene& scene, std::size_t index, const Options& options,
-                       const EffectSet& effects, const Progress& progress, const BakedMethod& before) {
-  if (!method.precompute_brdf) return {precomputed(method, scene, index, options, effects, progress), false};
-  return {method.precompute_brdf(before.materials.at(index), scene.materials.at(index), options, effects), false};
 }
 
 // Finds the textures of the last material that an earlier one has; `known` are the texels so far. Textures of a frame
@@ -160,9 +157,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     part(fmt::format("{}: {}", baked.spec.text, material.name), 0.0);
     try {
       const EffectSet honoured = effects & method.info.honours;
-      auto [prefiltered, from_disk] = before != nullptr
-                                          ? prefilter_brdf(method, scene, i, baked.options, honoured, part, *before)
-                                          : prefilter(method, scene, i, baked.options, honoured, part, cache);
+      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, cache, before);
       if (auto note = storage_range_note(material, method.info, baked.options, honoured))
         prefiltered.notes.push_back(*std::move(note));
       if (material.anisotropy && has(effects & ~method.info.honours, Effect::anisotropic_lobe))

@@ -109,37 +109,26 @@ double ggx(const glm::dvec2& d, const glm::dmat2& alpha_squared) {
   return 1.0 / (std::numbers::pi * std::sqrt(glm::determinant(alpha_squared)) * (1.0 + q) * (1.0 + q));
 }
 
-class Sampler {
- public:
-  Sampler(const Image& normals, const Image& alphas) : normals_(normals), alphas_(alphas) {}
+Texel texel_at(const Image& normals, const Image& alphas, int x, int y) {
+  const auto normal = normals.at(x, y);
+  const bool is_flat = normal[3] <= 0.0F;
+  return {.slope = is_flat ? glm::dvec2(0.0) : slope_of(glm::dvec3(normal[0], normal[1], normal[2])),
+          .alpha = alphas.texel_count() == 1 ? alphas.at(0, 0)[0] : alphas.at(x, y)[0]};
+}
 
-  [[nodiscard]] Texel at(int x, int y) const {
-    const auto normal = normals_.at(x, y);
-    const bool is_flat = normal[3] <= 0.0F;
-    return {.slope = is_flat ? glm::dvec2(0.0) : slope_of(glm::dvec3(normal[0], normal[1], normal[2])),
-            .alpha = alphas_.texel_count() == 1 ? alphas_.at(0, 0)[0] : alphas_.at(x, y)[0]};
-  }
-
-  // The texels of a random block; the one in its middle comes first.
-  std::vector<Texel> block(int level) {
-    const int width = std::min(1 << level, normals_.width), height = std::min(1 << level, normals_.height);
-    const int x = start(normals_.width - width), y = start(normals_.height - height);
-    std::vector<Texel> texels{at(x + width / 2, y + height / 2)};
-    for (int j = 0; j < height; ++j) {
-      for (int i = 0; i < width; ++i) {
-        if (i != width / 2 || j != height / 2) texels.push_back(at(x + i, y + j));
-      }
+// The texels of a random block; the one in its middle comes first.
+std::vector<Texel> random_block(const Image& normals, const Image& alphas, int level, std::mt19937& random) {
+  const auto start = [&](int most) { return static_cast<int>(random() % (static_cast<unsigned>(most) + 1U)); };
+  const int width = std::min(1 << level, normals.width), height = std::min(1 << level, normals.height);
+  const int x = start(normals.width - width), y = start(normals.height - height);
+  std::vector<Texel> texels{texel_at(normals, alphas, x + width / 2, y + height / 2)};
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) {
+      if (i != width / 2 || j != height / 2) texels.push_back(texel_at(normals, alphas, x + i, y + j));
     }
-    return texels;
   }
-
- private:
-  int start(int most) { return static_cast<int>(random_() % (static_cast<unsigned>(most) + 1U)); }
-
-  const Image& normals_;
-  const Image& alphas_;
-  std::mt19937 random_{1};
-};
+  return texels;
+}
 
 // The sums of a map: squared errors by lobe, and exact values.
 struct Sums {
@@ -228,10 +217,10 @@ std::optional<double> correlation_with_spread(const Image& normals, const Image&
 
 LobeErrors lobe_errors(const Image& normals, const Image& alphas, int level) {
   if (alphas.texel_count() != 1) require_size(alphas, normals);
-  Sampler sampler(normals, alphas);
+  std::mt19937 random(1);
   Sums sums;
   const int blocks = block_count(level);
-  for (int i = 0; i < blocks; ++i) add_block(sampler.block(level), sums);
+  for (int i = 0; i < blocks; ++i) add_block(random_block(normals, alphas, level, random), sums);
   const auto samples = static_cast<double>(blocks) * static_cast<double>(std::size(half_vector_slopes));
   LobeErrors errors{};
   for (std::size_t i = 0; i < errors.size(); ++i)

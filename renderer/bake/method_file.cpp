@@ -41,10 +41,6 @@ struct Job {
 
 Prefiltered mean_normal(const Job& job) { return bake_mean_normal(job.material, job.storage, job.effects); }
 
-Prefiltered lobe_variance(const Job& job) {
-  return bake_lobe_variance(job.material, job.storage, job.effects, roughness_mean(job.options));
-}
-
 // The diffuse term reads the mean normal; of detail layers only the slopes are stored.
 Prefiltered slope_moments(const Job& job) {
   const bool mean_normal = has(job.effects, Effect::diffuse) && !has(job.effects, Effect::normal_layers);
@@ -52,8 +48,6 @@ Prefiltered slope_moments(const Job& job) {
   return bake_slopes(job.material, job.options, job.effects,
                      {.variant = scalar ? SlopeVariant::scalar : SlopeVariant::full, .mean_normal = mean_normal});
 }
-
-Prefiltered mean_roughness(const Job& job) { return bake_mean_roughness(job.material, job.storage, job.effects); }
 
 Prefiltered mean_lobe(const Job& job) {
   if (!has(job.effects, Effect::roughness_variation)) return {};
@@ -93,7 +87,10 @@ std::vector<OptionSpec> any_blocks() { return {block_storage_option(true)}; }
 constexpr std::array<Input, 9> inputs{
     {{"mean_normal", mean_normal, [] { return std::vector{block_storage_option(false)}; }},
      {"mean_direction", mean_normal, any_blocks},  // the same texture, of which a module ignores the length
-     {"lobe_variance", lobe_variance,
+     {"lobe_variance",
+      [](const Job& job) {
+        return bake_lobe_variance(job.material, job.storage, job.effects, roughness_mean(job.options));
+      },
       [] {
         return std::vector{block_storage_option(false), roughness_mean_option()};
       }},
@@ -102,7 +99,8 @@ constexpr std::array<Input, 9> inputs{
         return std::vector{float_storage_option(), slope_roughness_option(), steepest_slope_option(),
                            slope_variant_option()};
       }},
-     {"mean_roughness", mean_roughness, any_blocks},
+     {"mean_roughness", [](const Job& job) { return bake_mean_roughness(job.material, job.storage, job.effects); },
+      any_blocks},
      {"mean_lobe", mean_lobe, any_blocks},
      {"finest_normal", finest_normal, storage_alone},
      {"finest_roughness", finest_roughness, any_blocks},

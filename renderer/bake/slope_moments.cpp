@@ -50,15 +50,6 @@ Image texel_moments(const Image& normals, const Image& variance, double steepest
   return out;
 }
 
-// Expands a constant of one texel.
-Image spread_over(Image image, int width, int height) {
-  if (image.texel_count() != 1) return image;
-  Image out(width, height, image.channels);
-  for (std::size_t i = 0; i < out.texels.size(); ++i)
-    out.texels[i] = image.texels[i % static_cast<std::size_t>(image.channels)];
-  return out;
-}
-
 // The base roughness for the moments. The texels of both maps must coincide.
 Image variance_for_moments(const Material& material) {
   Image variance = lobe_variance_map(material);
@@ -204,7 +195,8 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
   Prefiltered out;
   if (has(effects, Effect::normal_variation)) {
     const Image variance = in_moments ? variance_for_moments(material) : no_variance;
-    Image normals = spread_over(normal_map_of(material), variance.width, variance.height);
+    Image normals = normal_map_of(material);
+    if (normals.texel_count() == 1) normals = nearest_texels(normals, variance.width, variance.height);
     note_steep_texels(normals, "normal map", steepest, out);
     const std::vector<Image> moments =
         slope_moment_chain(normals, variance, steepest, material.anisotropy.value_or(Anisotropy{}));

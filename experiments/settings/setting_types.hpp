@@ -41,17 +41,6 @@ inline Error not_valid(std::string_view option, std::string_view text, std::stri
   return {ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, why), std::move(hint)};
 }
 
-// The comma-separated parts of a text; one empty part of an empty text.
-inline std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t stop = std::min(text.find(',', start), text.size());
-    parts.push_back(text.substr(start, stop - start));
-    start = stop + 1;
-  }
-  return parts;
-}
-
 template <typename Number>
 std::string range_text(Number low, Number high) {
   return high == std::numeric_limits<Number>::max() ? fmt::format("{} or more", low)

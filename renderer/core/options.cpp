@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -40,19 +41,12 @@ MethodSpec parse_method(std::string_view text) {
     return Error(ErrorKind::usage, fmt::format("method `{}`", text), message,
                  "write name or name:option=value:option=value");
   };
-  MethodSpec spec{.text = std::string(text), .name = {}, .options = {}};
-  std::size_t start = 0;
-  for (bool first = true; start <= text.size(); first = false) {
-    const std::size_t stop = std::min(text.find(':', start), text.size());
-    const std::string_view part = text.substr(start, stop - start);
-    start = stop + 1;
-    if (first) {
-      spec.name = part;
-      if (part.empty()) throw bad("a method has no name");
-      continue;
-    }
+  const std::vector<std::string> parts = parts_of(text, ':');
+  MethodSpec spec{.text = std::string(text), .name = parts.front(), .options = {}};
+  if (spec.name.empty()) throw bad("a method has no name");
+  for (const std::string& part : std::span(parts).subspan(1)) {
     const std::size_t equals = part.find('=');
-    if (equals == std::string_view::npos || equals == 0) throw bad(fmt::format("option `{}` is not name=value", part));
+    if (equals == std::string::npos || equals == 0) throw bad(fmt::format("option `{}` is not name=value", part));
     const bool fresh = spec.options.emplace(part.substr(0, equals), part.substr(equals + 1)).second;
     if (!fresh) throw bad(fmt::format("option `{}` is given twice", part.substr(0, equals)));
   }
@@ -111,15 +105,10 @@ const std::string& Options::word(std::string_view name) const {
 std::vector<MethodSpec> parse_methods(std::string_view list) {
   std::vector<MethodSpec> methods;
   std::set<std::string> seen;
-  std::size_t start = 0;
-  while (start <= list.size()) {
-    const std::size_t stop = std::min(list.find(',', start), list.size());
-    methods.push_back(parse_method(list.substr(start, stop - start)));
-    if (!seen.insert(methods.back().text).second) {
-      throw Error(ErrorKind::usage, fmt::format("method `{}`", methods.back().text), "given twice",
-                  "name each method once");
-    }
-    start = stop + 1;
+  for (const std::string& part : parts_of(list)) {
+    methods.push_back(parse_method(part));
+    if (!seen.insert(part).second)
+      throw Error(ErrorKind::usage, fmt::format("method `{}`", part), "given twice", "name each method once");
   }
   return methods;
 }

@@ -84,6 +84,11 @@ void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Til
   }
 }
 
+void fit(gl::RenderTarget& target, const glm::ivec2& size, std::span<const GLenum> color_formats, bool depth) {
+  if (target.width() != size.x || target.height() != size.y)
+    target = gl::RenderTarget(size.x, size.y, color_formats, depth);
+}
+
 void clear_target() {
   constexpr std::array<float, 4> nothing{};
   constexpr float far_plane = 0.0F;  // reversed depth: tile_matrix

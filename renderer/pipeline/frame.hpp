@@ -50,6 +50,9 @@ class FrameRenderer {
 /// as `picture` has.
 void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Tile& tile, Image& picture);
 
+/// Allocates `target` again unless it has this size.
+void fit(gl::RenderTarget& target, const glm::ivec2& size, std::span<const GLenum> color_formats, bool depth);
+
 /// Clears the bound framebuffer to no radiance, no coverage, and the far plane.
 void clear_target();
 

@@ -38,7 +38,9 @@ glm::dvec2 jitter_of(std::uint64_t seed, std::uint32_t frame) {
 
 History::History(const glm::ivec2& size, const HistorySettings& settings)
     : settings_(settings),
-      blend_("history", screen_vertex_shader(), history_shader(settings.clamp)),
+      blend_("history", screen_vertex_shader(),
+             shared_stage("history.glsl", {{"clamp_box", settings.clamp == HistoryClamp::box},
+                                           {"clamp_variance", settings.clamp == HistoryClamp::variance}})),
       targets_{gl::RenderTarget(size.x, size.y, history_formats, false),
                gl::RenderTarget(size.x, size.y, history_formats, false)} {}
 

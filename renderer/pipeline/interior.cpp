@@ -100,12 +100,20 @@ InteriorFinder::InteriorFinder(GpuScene& scene, const Scene& values, int tile_ed
 }
 
 InteriorFinder::SamplePasses InteriorFinder::make_passes(bool shadows) const {
-  SamplePasses passes{
-      .shadows = shadows, .draw = {}, .compare = {}, .units = units_of(*scene_, shadows), .first = {}, .other = {}};
+  SamplePasses passes{.shadows = shadows,
+                      .formats = piece_formats,
+                      .draw = {},
+                      .compare = {},
+                      .units = units_of(*scene_, shadows),
+                      .first = {},
+                      .other = {}};
+  if (shadows) passes.formats = one_format;
   const ShaderVariant variant = variant_of(*scene_, orthographic_, shadows);
-  passes.draw = gl::Program(shadows ? "shadow edges" : "interior pixels", interior_vertex_shader(variant),
+  passes.draw = gl::Program(shadows ? "shadow edges" : "interior pixels",
+                            shared_stage("interior_vertex.glsl", shader_flags(variant)),
                             interior_fragment_shader(variant, passes.units.declarations()));
-  passes.compare = gl::Program("comparison of samples", screen_vertex_shader(), interior_compare_shader(shadows));
+  passes.compare = gl::Program("comparison of samples", screen_vertex_shader(),
+                               shared_stage("interior_compare.glsl", shader_flags(variant)));
   return passes;
 }
 
@@ -124,14 +132,6 @@ void InteriorFinder::add_parts(const Scene& values) {
   }
 }
 
-void InteriorFinder::fit(SamplePasses& passes, const glm::ivec2& size) const {
-  if (passes.first.width() == size.x && passes.first.height() == size.y) return;
-  for (gl::RenderTarget* target : {&passes.first, &passes.other}) {
-    *target = passes.shadows ? gl::RenderTarget(size.x, size.y, one_format, true)
-                             : gl::RenderTarget(size.x, size.y, piece_formats, true);
-  }
-}
-
 void InteriorFinder::draw(const SamplePasses& passes, const gl::RenderTarget& target, const View& view,
                           const Tile& tile, const SampleGrid& samples, std::size_t pass) const {
   constexpr std::array<float, 4> nothing{};
@@ -139,7 +139,7 @@ void InteriorFinder::draw(const SamplePasses& passes, const gl::RenderTarget& ta
   gl::api().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   gl::api().Viewport(0, 0, tile.size.x * samples.grid, tile.size.y * samples.grid);
   clear_target();
-  for (GLint i = 1; !passes.shadows && i < static_cast<GLint>(piece_formats.size()); ++i)
+  for (GLint i = 1; i < static_cast<GLint>(passes.formats.size()); ++i)
     gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
   gl::api().UseProgram(passes.draw.name());
   const glm::mat4 matrix = tile_matrix(view, tile, samples.passes[pass].offset / static_cast<double>(samples.grid));
@@ -180,7 +180,7 @@ void InteriorFinder::draw(const SamplePasses& passes, const gl::RenderTarget& ta
 void InteriorFinder::compare(const SamplePasses& passes, const gl::RenderTarget& drawn, const View& view,
                              const Tile& tile, int grid) const {
   const auto uniform = [&](const char* name) { return passes.compare.uniform(name); };
-  const std::size_t textures = passes.shadows ? one_format.size() : piece_formats.size();
+  const std::size_t textures = passes.formats.size();
   gl::api().UseProgram(passes.compare.name());
   gl::api().Uniform1i(uniform("grid"), grid);
   gl::api().Uniform1f(uniform("rounding"), rounding_share * (far_corner_ + glm::length(camera_position(view.camera))));
@@ -218,10 +218,13 @@ Interior InteriorFinder::render(const View& view, const Tile& part, int spp, std
   const glm::ivec2 largest = tiles.front().size;
   const PerLightType<std::size_t>& counts = scene_->light_counts().of;
   const std::size_t lights = shadows_ ? std::reduce(counts.begin(), counts.begin() + light_type::area_point) : 0;
-  fit(geometry_, largest * samples.grid);
-  if (shadows_) fit(*shadows_, largest * samples.grid);
-  if (result_.width() != largest.x || result_.height() != largest.y)
-    result_ = gl::RenderTarget(largest.x, largest.y, one_format, false);
+  const auto make_room = [&](SamplePasses& passes) {
+    fit(passes.first, largest * samples.grid, passes.formats, true);
+    fit(passes.other, largest * samples.grid, passes.formats, true);
+  };
+  make_room(geometry_);
+  if (shadows_) make_room(*shadows_);
+  fit(result_, largest, one_format, false);
   Image read(view.size.x, view.size.y, 4);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     progress("interior pixels", static_cast<double>(i) / static_cast<double>(tiles.size()));

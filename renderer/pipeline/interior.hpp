@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "renderer/core/progress.hpp"
@@ -72,13 +73,13 @@ class InteriorFinder {
   // One kind of pass over the samples: their geometry, or the unshadowed shares of four lights.
   struct SamplePasses {
     bool shadows = false;
+    std::span<const GLenum> formats;  // of a pass
     gl::Program draw, compare;
     TextureUnits units{{}, {}};
     gl::RenderTarget first, other;  // the first pass, and the one that is compared with it
   };
   void add_parts(const Scene& values);
   [[nodiscard]] SamplePasses make_passes(bool shadows) const;
-  void fit(SamplePasses& passes, const glm::ivec2& size) const;
   void draw(const SamplePasses& passes, const gl::RenderTarget& target, const View& view, const Tile& tile,
             const SampleGrid& samples, std::size_t pass) const;
   void compare(const SamplePasses& passes, const gl::RenderTarget& drawn, const View& view, const Tile& tile,

@@ -115,12 +115,14 @@ SampleGrid sample_grid(int spp, std::uint64_t seed, int fewest_passes) {
   const int all = spp / (out.grid * out.grid);
   for (const int half : {0, 1}) {
     const int passes = half == 0 ? (all + 1) / 2 : all / 2;
+    const std::uint32_t own = half_seed(seed, half);
     for (int number = 0; number < passes; ++number) {
       const auto pass = static_cast<std::uint32_t>(number);
-      out.passes.push_back({.offset = offset_of(pass, half_seed(seed, half)),
+      out.passes.push_back({.offset = offset_of(pass, own),
                             .half = half,
                             .block = 2 * number < passes ? 0 : 1,
-                            .number = pass});
+                            .number = pass,
+                            .seed = own});
     }
   }
   return out;

@@ -48,6 +48,7 @@ struct SamplePass {
   int half = 0;              ///< the sequence, 0 or 1
   int block = 0;             ///< 0 or 1: first or second part of its sequence
   std::uint32_t number = 0;  ///< of the pass in its sequence; its samples start at grid^2 * number
+  std::uint32_t seed = 0;    ///< of everything that its sequence draws: half_seed
 };
 
 /// passes * grid^2 samples per pixel, ordered by (half, block, number).

@@ -88,7 +88,7 @@ struct ShaderVariant {
 
 /// All flags of the shared texts and of a method's word options (`storage_fp16`), each on or off. They depend on the
 /// variant, on the options, and on the kinds of the method's textures.
-[[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options,
+[[nodiscard]] ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options = {{}, {}, "no options"},
                                        const Prefiltered& prefiltered = {});
 
 }  // namespace footprint

@@ -21,17 +21,6 @@ constexpr std::string_view screen_vertices =
     "void main() { gl_Position = vec4(vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0), 0.0, 1.0); "
     "}\n";
 
-// The flags of stages without a method.
-ShaderFlags plain_flags(const ShaderVariant& variant) { return shader_flags(variant, {{}, {}, "no options"}); }
-
-// A stage of one shared file.
-std::string plain_stage(const ShaderFlags& flags, std::string_view file) {
-  ShaderText text(flags);
-  text.add(version_line);
-  text.include(file);
-  return text.text();
-}
-
 // Lights that a program shades one by one.
 std::size_t punctual_lights(const ShaderVariant& v) {
   return std::reduce(v.lights.begin(), v.lights.end()) - v.lights[light_type::area];
@@ -185,14 +174,11 @@ std::string material_block(const ShaderFlags& flags) {
 ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits& units, const ShaderModule& module,
                                const Options& options, const Prefiltered& prefiltered) {
   const ShaderFlags flags = shader_flags(variant, options, prefiltered);
-  ShaderText vertex(flags);
-  vertex.add(version_line);
-  vertex.include("surface_vertex.glsl");
   ShaderText fragment = module_text(flags, module);
   fragment.add(units.declarations() + light_capacities(variant) + fixed_trips(variant.fixed_trips, variant.effects));
   fragment.include("surface_lights.glsl");
   add_method_pass(fragment, variant, flags, options, prefiltered, "surface_fragment.glsl");
-  return {vertex.text(), std::move(fragment)};
+  return {shared_stage("surface_vertex.glsl", flags), std::move(fragment)};
 }
 
 std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
@@ -228,12 +214,15 @@ ShaderText frame_build_shader(const ShaderVariant& variant, const ShaderModule& 
   return text;
 }
 
-std::string shadow_vertex_shader(const EffectSet& effects) {
-  return plain_stage(plain_flags({.effects = effects, .brdf = {}}), "shadow_vertex.glsl");
+std::string shared_stage(std::string_view file, const ShaderFlags& flags) {
+  ShaderText text(flags);
+  text.add(version_line);
+  text.include(file);
+  return text.text();
 }
 
 std::string shadow_fragment_shader(const EffectSet& effects) {
-  const ShaderFlags flags = plain_flags({.effects = effects, .brdf = {}});
+  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}});
   ShaderText text(flags);
   text.add(version_line);
   if (has(effects, Effect::alpha_mask)) {
@@ -244,12 +233,8 @@ std::string shadow_fragment_shader(const EffectSet& effects) {
   return text.text();
 }
 
-std::string interior_vertex_shader(const ShaderVariant& variant) {
-  return plain_stage(plain_flags(variant), "interior_vertex.glsl");
-}
-
 std::string interior_fragment_shader(const ShaderVariant& variant, std::string_view textures) {
-  const ShaderFlags flags = plain_flags(variant);
+  const ShaderFlags flags = shader_flags(variant);
   ShaderText text(flags);
   text.add(version_line);
   text.add(std::string(textures) + light_capacities(variant));
@@ -259,20 +244,7 @@ std::string interior_fragment_shader(const ShaderVariant& variant, std::string_v
   return text.text();
 }
 
-std::string interior_compare_shader(bool shadows) {
-  EffectSet effects;
-  effects.set(static_cast<std::size_t>(Effect::cast_shadow), shadows);
-  return plain_stage(plain_flags({.effects = effects, .brdf = {}}), "interior_compare.glsl");
-}
-
 std::string screen_vertex_shader() { return std::string(version_line).append(screen_vertices); }
-
-std::string resolve_shader() { return plain_stage({}, "resolve_samples.glsl"); }
-
-std::string history_shader(HistoryClamp clamp) {
-  return plain_stage({{"clamp_box", clamp == HistoryClamp::box}, {"clamp_variance", clamp == HistoryClamp::variance}},
-                     "history.glsl");
-}
 
 TextureUnits::TextureUnits(const EffectSet& effects, const Prefiltered& prefiltered) {
   for (const SharedMap& map : shared_maps()) {

@@ -8,7 +8,6 @@
 #include "renderer/bake/prefiltered.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/gl/objects.hpp"
-#include "renderer/pipeline/history_settings.hpp"
 #include "renderer/pipeline/shader_flags.hpp"
 #include "renderer/pipeline/shader_text.hpp"
 
@@ -100,24 +99,18 @@ struct ForwardShaders {
 [[nodiscard]] ShaderText frame_build_shader(const ShaderVariant& variant, const ShaderModule& pass,
                                             const Options& options, std::string_view constants = {});
 
-/// The stages that draw a shadow map.
-[[nodiscard]] std::string shadow_vertex_shader(const EffectSet& effects);
+/// A stage of one shared file.
+[[nodiscard]] std::string shared_stage(std::string_view file, const ShaderFlags& flags = {});
+
+/// The fragments of shadow_vertex.glsl, for a shadow map.
 [[nodiscard]] std::string shadow_fragment_shader(const EffectSet& effects);
 
-/// The stages that draw the samples for the mask of interior pixels: geometry, or with cast_shadow in `variant` the
-/// unshadowed shares of lights.
+/// The fragments of interior_vertex.glsl, samples for the mask of interior pixels: geometry, or with cast_shadow in
+/// `variant` the unshadowed shares of lights.
 /// textures: declarations of the textures that they read.
-[[nodiscard]] std::string interior_vertex_shader(const ShaderVariant& variant);
 [[nodiscard]] std::string interior_fragment_shader(const ShaderVariant& variant, std::string_view textures);
-/// The stage that compares the samples of each pixel.
-[[nodiscard]] std::string interior_compare_shader(bool shadows);
 
 /// A vertex stage that covers the whole viewport with 3 vertices, without attributes.
 [[nodiscard]] std::string screen_vertex_shader();
-/// The stage that adds a pass of samples to the reference's sums.
-[[nodiscard]] std::string resolve_shader();
-
-/// The fragment shader that blends a frame into a history; the vertices are screen_vertex_shader's.
-[[nodiscard]] std::string history_shader(HistoryClamp clamp);
 
 }  // namespace footprint

@@ -13,6 +13,9 @@ namespace footprint {
 namespace {
 
 constexpr int default_tile_edge = 512;
+constexpr std::array<GLenum, 1> sample_format{GL_RGBA32F};
+constexpr std::array<GLenum, 2> sum_formats{GL_RGBA32F, GL_R32F};  // mean and count, number of covered samples
+constexpr GLint sum_count = sum_formats.size();
 
 ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, EnvironmentUse environment) {
   return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
@@ -27,11 +30,8 @@ ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, Environme
 void copy_tile(const Image& from, const Tile& tile, Image& to) {
   for (int y = 0; y < tile.size.y; ++y) {
     const int row = to.height - 1 - (tile.origin.y + y);
-    const std::size_t first =
-        (static_cast<std::size_t>(row) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(tile.origin.x)) *
-        static_cast<std::size_t>(to.channels);
-    std::copy_n(from.texels.begin() + static_cast<std::ptrdiff_t>(first), tile.size.x * to.channels,
-                to.texels.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::copy_n(from.at(tile.origin.x, row).begin(), tile.size.x * to.channels,
+                        to.at(tile.origin.x, row).begin());
   }
 }
 
@@ -74,19 +74,19 @@ glm::dvec3 variance_of(std::span<const Pixel> blocks, const Pixel& all) {
 class SampleBlocks {
  public:
   explicit SampleBlocks(const glm::ivec2& size) {
-    for (Block& block : blocks_) block = {Image(size.x, size.y, 4), Image(size.x, size.y, 1), 0.0};
+    for (Block& block : blocks_) block = {Image(size.x, size.y, 4), Image(size.x, size.y, 1)};
   }
 
-  // Reads a tile of a block of `samples` samples per pixel from the sums of resolve_samples.glsl.
-  void add(const gl::RenderTarget& sums, const Tile& tile, int half, int block, double samples) {
-    Block& into = blocks_.at(static_cast<std::size_t>(2 * half + block));
-    into.samples = samples;
+  // Reads a tile of the block of `pass` from the sums of resolve_samples.glsl.
+  void add(const gl::RenderTarget& sums, const Tile& tile, const SamplePass& pass) {
+    Block& into = blocks_.at(static_cast<std::size_t>(2 * pass.half + pass.block));
     read_tile(sums, 0, tile, into.mean);
     read_tile(sums, 1, tile, into.covered);
   }
 
   // Weighted means over the blocks, and their spread.
-  [[nodiscard]] Supersampled result(int spp) const {
+  // has_halves: whether the second sequence has samples.
+  [[nodiscard]] Supersampled result(int spp, bool has_halves) const {
     const int width = blocks_[0].mean.width, height = blocks_[0].mean.height;
     Supersampled out{
         .spp = spp, .mean = Image(width, height, 4), .standard_error = Image(width, height, 3), .halves = {}};
@@ -107,16 +107,15 @@ class SampleBlocks {
       for (int c = 0; c < 3; ++c)
         out.standard_error.texels[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(std::sqrt(variance[c]));
     }
-    if (blocks_[2].samples > 0.0) out.halves.emplace(std::move(first), std::move(second));
+    if (has_halves) out.halves.emplace(std::move(first), std::move(second));
     return out;
   }
 
  private:
   static constexpr std::size_t block_count = 4;
   struct Block {
-    Image mean;      // and the number of samples with a radiance
-    Image covered;   // the number of samples that the surface covers, one channel
-    double samples;  // per pixel; 0: the block is empty
+    Image mean;     // and the number of samples with a radiance
+    Image covered;  // the number of samples that the surface covers, one channel
   };
   std::array<Block, block_count> blocks_;
 };
@@ -131,90 +130,39 @@ bool is_unresolved(std::span<const float> mean, std::span<const float> error, fl
 
 }  // namespace
 
-// The target of a tile's samples, and their sums, which are read from one target and written to the other.
-class Supersampler::Accumulator {
- public:
-  Accumulator(const glm::ivec2& tile, int grid)
-      : tile_(tile),
-        grid_(grid),
-        samples_(tile.x * grid, tile.y * grid, sample_format, true),
-        sums_{sums_of(tile), sums_of(tile)} {}
-
-  [[nodiscard]] bool fits(const glm::ivec2& tile, int grid) const { return tile_ == tile && grid_ == grid; }
-  [[nodiscard]] const gl::RenderTarget& samples() const { return samples_; }
-  [[nodiscard]] const gl::RenderTarget& sums() const { return sums_[newest_]; }
-
-  void clear() {
-    constexpr std::array<float, 4> nothing{};
-    gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums().framebuffer());
-    for (GLint i = 0; i < sum_count; ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
-  }
-
-  // Adds the samples that have been drawn to the sums of the tile's pixels.
-  void add(const gl::Program& resolve, const Tile& tile) {
-    gl::api().UseProgram(resolve.name());
-    gl::api().Uniform1i(resolve.uniform("grid"), grid_);
-    gl::bind_texture(0, samples_.color(0));
-    for (GLuint i = 0; i < sum_count; ++i) gl::bind_texture(i + 1, sums().color(i));
-    newest_ = 1 - newest_;
-    triangle_.draw_into(sums(), tile.size.x, tile.size.y);
-  }
-
- private:
-  static constexpr GLint sum_count = 2;  // mean and count, number of covered samples
-  static constexpr std::array<GLenum, 1> sample_format{GL_RGBA32F};
-  static constexpr std::array<GLenum, 2> sum_formats{GL_RGBA32F, GL_R32F};
-
-  static gl::RenderTarget sums_of(const glm::ivec2& tile) { return {tile.x, tile.y, sum_formats, false}; }
-
-  glm::ivec2 tile_;
-  int grid_;
-  gl::RenderTarget samples_;
-  std::array<gl::RenderTarget, 2> sums_;
-  std::size_t newest_ = 0;
-  gl::ScreenTriangle triangle_;
-};
-
 Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
                            ReferenceFilter filter, bool orthographic, int tile_edge, EnvironmentUse environment)
     : scene_(&scene),
       method_(&method),
       tile_edge_(std::min(tile_edge > 0 ? tile_edge : default_tile_edge, context.max_framebuffer_size / 4)),
       program_(scene, method.baked(), settings_of(filter, orthographic, environment)),
-      resolve_("resolve samples", screen_vertex_shader(), resolve_shader()) {}
+      resolve_("resolve samples", screen_vertex_shader(), shared_stage("resolve_samples.glsl")) {}
 
-Supersampler::Supersampler(Supersampler&&) noexcept = default;
-Supersampler::~Supersampler() = default;
-
-Supersampler::Accumulator& Supersampler::accumulator(const glm::ivec2& tile, int grid) const {
-  if (!accumulator_ || !accumulator_->fits(tile, grid)) accumulator_ = std::make_unique<Accumulator>(tile, grid);
-  accumulator_->clear();
-  return *accumulator_;
+void Supersampler::begin(const glm::ivec2& tile, int grid) const {
+  constexpr std::array<float, 4> nothing{};
+  fit(samples_, tile * grid, sample_format, true);
+  for (gl::RenderTarget& target : sums_) fit(target, tile, sum_formats, false);
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums().framebuffer());
+  for (GLint i = 0; i < sum_count; ++i) gl::api().ClearBufferfv(GL_COLOR, i, nothing.data());
 }
 
-// The parameters of all passes of an image.
-struct Supersampler::Sampling {
-  const View* view;
-  int grid;
-  std::uint64_t seed;
-  TexelUse texels;
-};
-
-void Supersampler::accumulate(Accumulator& sums, const Sampling& sampling, const Tile& tile,
-                              const SamplePass& pass) const {
-  const int grid = sampling.grid;
-  const glm::ivec2 size = tile.size * grid;
-  gl::api().BindFramebuffer(GL_FRAMEBUFFER, sums.samples().framebuffer());
-  gl::api().Viewport(0, 0, size.x, size.y);
+void Supersampler::accumulate(const View& view, const Tile& tile, int grid, const SamplePass& pass,
+                              TexelUse texels) const {
+  gl::api().BindFramebuffer(GL_FRAMEBUFFER, samples_.framebuffer());
+  gl::api().Viewport(0, 0, tile.size.x * grid, tile.size.y * grid);
   clear_target();
-  program_.draw(*scene_, *method_, *sampling.view,
-                tile_matrix(*sampling.view, tile, pass.offset / static_cast<double>(grid)),
+  program_.draw(*scene_, *method_, view, tile_matrix(view, tile, pass.offset / static_cast<double>(grid)),
                 {.origin = tile.origin * grid,
                  .grid = grid,
-                 .seed = half_seed(sampling.seed, pass.half),
+                 .seed = pass.seed,
                  .first = pass.number * static_cast<std::uint32_t>(grid * grid),
-                 .texels = sampling.texels});
-  sums.add(resolve_, tile);
+                 .texels = texels});
+  gl::api().UseProgram(resolve_.name());
+  gl::api().Uniform1i(resolve_.uniform("grid"), grid);
+  gl::bind_texture(0, samples_.color(0));
+  for (GLuint i = 0; i < sum_count; ++i) gl::bind_texture(i + 1, sums().color(i));
+  newest_ = 1 - newest_;
+  triangle_.draw_into(sums(), tile.size.x, tile.size.y);
 }
 
 void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
@@ -222,57 +170,49 @@ void Supersampler::draw(const View& view, int spp, std::uint64_t seed) const {
   method_->build_frame(view);
   const std::vector<Tile> tiles = tiles_of(view.size, tile_edge_);
   for (const Tile& tile : tiles) {
-    Accumulator& sums = accumulator(tiles.front().size, samples.grid);
-    for (const SamplePass& pass : samples.passes) {
-      accumulate(sums, {.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::drawn}, tile, pass);
-    }
+    begin(tiles.front().size, samples.grid);
+    for (const SamplePass& pass : samples.passes) accumulate(view, tile, samples.grid, pass, TexelUse::drawn);
   }
 }
 
-Supersampled Supersampler::render_tiles(const Sampling& sampling, const SampleGrid& samples,
-                                        std::span<const Tile> tiles, int spp, const Progress& progress) const {
-  method_->build_frame(*sampling.view);
+Supersampled Supersampler::render_tiles(const View& view, const SampleGrid& samples, std::span<const Tile> tiles,
+                                        TexelUse texels, const Progress& progress) const {
+  method_->build_frame(view);
+  const int spp = static_cast<int>(samples.passes.size()) * samples.grid * samples.grid;
   const auto steps = static_cast<double>(tiles.size() * samples.passes.size());
   glm::ivec2 largest(1);
   for (const Tile& tile : tiles) largest = glm::max(largest, tile.size);
-  SampleBlocks blocks(sampling.view->size);
+  SampleBlocks blocks(view.size);
   double done = 0;
   for (const Tile& tile : tiles) {
     for (std::size_t first = 0, last = 0; first < samples.passes.size(); first = last) {
-      const SamplePass& begin = samples.passes[first];
-      Accumulator& sums = accumulator(largest, samples.grid);
-      for (; last < samples.passes.size() && samples.passes[last].half == begin.half &&
-             samples.passes[last].block == begin.block;
+      const SamplePass& start = samples.passes[first];
+      begin(largest, samples.grid);
+      for (; last < samples.passes.size() && samples.passes[last].half == start.half &&
+             samples.passes[last].block == start.block;
            ++last) {
         progress(fmt::format("{} samples per pixel", spp), done++ / steps);
-        accumulate(sums, sampling, tile, samples.passes[last]);
+        accumulate(view, tile, samples.grid, samples.passes[last], texels);
       }
-      const auto samples_taken = static_cast<double>(last - first) * samples.grid * samples.grid;
-      blocks.add(sums.sums(), tile, begin.half, begin.block, samples_taken);
+      blocks.add(sums(), tile, start);
     }
   }
-  return blocks.result(spp);
+  return blocks.result(spp, samples.passes.back().half > 0);
 }
 
 Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress,
                                   TexelUse texels) const {
-  const SampleGrid samples = sample_grid(spp, seed);
-  return render_tiles({.view = &view, .grid = samples.grid, .seed = seed, .texels = texels}, samples,
-                      tiles_of(view.size, tile_edge_), spp, progress);
+  return render_tiles(view, sample_grid(spp, seed), tiles_of(view.size, tile_edge_), texels, progress);
 }
 
 Image Supersampler::render_mean(const View& view, int spp, std::uint64_t seed, const Progress& progress) const {
-  const SampleGrid samples = sample_grid(spp, seed, 1);
-  return render_tiles({.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::filtered}, samples,
-                      tiles_of(view.size, tile_edge_), spp, progress)
+  return render_tiles(view, sample_grid(spp, seed, 1), tiles_of(view.size, tile_edge_), TexelUse::filtered, progress)
       .mean;
 }
 
 void Supersampler::refine(Supersampled& picture, const View& view, std::span<const Tile> tiles, int spp,
                           std::uint64_t seed, const Progress& progress) const {
-  const SampleGrid samples = sample_grid(spp, seed);
-  const Supersampled finer = render_tiles(
-      {.view = &view, .grid = samples.grid, .seed = seed, .texels = TexelUse::filtered}, samples, tiles, spp, progress);
+  const Supersampled finer = render_tiles(view, sample_grid(spp, seed), tiles, TexelUse::filtered, progress);
   for (const Tile& tile : tiles) {
     copy_tile(finer.mean, tile, picture.mean);
     copy_tile(finer.standard_error, tile, picture.standard_error);

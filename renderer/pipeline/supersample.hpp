@@ -1,9 +1,9 @@
 // The reference: many samples per pixel, their mean, how far that mean can be trusted, and pixels where it cannot.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -36,8 +36,6 @@ class Supersampler {
   /// environment: `sampled` or `dense`; for the base surface only.
   Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, ReferenceFilter filter,
                bool orthographic, int tile_edge = 0, EnvironmentUse environment = EnvironmentUse::sampled);
-  Supersampler(Supersampler&&) noexcept;
-  ~Supersampler();
 
   /// Deterministic for a seed.
   /// spp: samples per pixel, 1 to 4096; otherwise throws Error (usage).
@@ -59,20 +57,25 @@ class Supersampler {
   void draw(const View& view, int spp, std::uint64_t seed) const;
 
  private:
-  class Accumulator;
-  struct Sampling;
-  /// The sums of a tile, cleared; allocated again if the size changed.
-  Accumulator& accumulator(const glm::ivec2& tile, int grid) const;
-  [[nodiscard]] Supersampled render_tiles(const Sampling& sampling, const SampleGrid& samples,
-                                          std::span<const Tile> tiles, int spp, const Progress& progress) const;
-  void accumulate(Accumulator& sums, const Sampling& sampling, const Tile& tile, const SamplePass& pass) const;
+  [[nodiscard]] const gl::RenderTarget& sums() const { return sums_[newest_]; }
+  // Makes room for the samples and sums of a tile, and clears the sums.
+  void begin(const glm::ivec2& tile, int grid) const;
+  [[nodiscard]] Supersampled render_tiles(const View& view, const SampleGrid& samples, std::span<const Tile> tiles,
+                                          TexelUse texels, const Progress& progress) const;
+  // Draws a pass and adds it to the sums.
+  void accumulate(const View& view, const Tile& tile, int grid, const SamplePass& pass, TexelUse texels) const;
 
   GpuScene* scene_;
   const GpuMethod* method_;
   int tile_edge_;
   SurfaceProgram program_;
   gl::Program resolve_;
-  mutable std::unique_ptr<Accumulator> accumulator_;  // reused between images, because allocating it is expensive
+  gl::ScreenTriangle triangle_;
+  // Reused between images, because allocating them is expensive. Sums are read from one target and written to the
+  // other.
+  mutable gl::RenderTarget samples_;
+  mutable std::array<gl::RenderTarget, 2> sums_;
+  mutable std::size_t newest_ = 0;
 };
 
 /// Root mean square of the standard error over object pixels and channels, relative to the mean radiance

@@ -145,7 +145,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(experiment.run.reference.supersampling, (std::vector<int>{1, 4}));
   EXPECT_EQ(experiment.run.without.count(), 2U);
   EXPECT_TRUE(has(experiment.run.without, Effect::fresnel) && has(experiment.run.without, Effect::cast_shadow));
-  EXPECT_EQ(experiment.run.reference.filter, ReferenceFilter::nearest);
+  EXPECT_EQ(experiment.run.reference.filter, Sampling::nearest);
   EXPECT_EQ(experiment.run.reference.environment, EnvironmentUse::dense);
   ASSERT_EQ(experiment.published.size(),
             1U);  // that of figure 2 names a method that this build lacks, and is not requested

@@ -105,7 +105,7 @@ struct ReferenceSettings {
   std::vector<int> other_spp;                              ///< of further references that errors are measured against
   std::vector<int> supersampling{1, 2, 4, 8, 16, 32, 64};  ///< samples per pixel of the measured curve
   std::uint64_t seed = 1;                                  ///< same seed, same bytes
-  ReferenceFilter filter = ReferenceFilter::after_shading;
+  Sampling filter = Sampling::after_shading;
   EnvironmentUse environment = EnvironmentUse::sampled;  ///< how it integrates an environment
   BoundUse bound = BoundUse::automatic;
   /// Whether the errors of representation, filtering and the environment's lookup are measured, which needs further

@@ -362,7 +362,7 @@ std::vector<Setting> reference_settings() {
        .commands = with_a_reference,
        .table = "reference",
        .key = "filter",
-       .type = one_word([](Run& run) -> ReferenceFilter& { return run.reference.filter; }, reference_filters, "filter"),
+       .type = one_word([](Run& run) -> Sampling& { return run.reference.filter; }, reference_filters, "filter"),
        .help = "filter of the reference: after shading, or of the maps before shading (nearest texel, bilinear)"},
       {.option = "--integrator",
        .commands = with_a_reference,

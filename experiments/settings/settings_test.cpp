@@ -110,7 +110,7 @@ TEST(WholeSetting, HasARange) {
 }
 
 TEST(WordSetting, NamesTheNearestWord) {
-  EXPECT_EQ(read("compare", "--filter", "nearest").reference.filter, ReferenceFilter::nearest);
+  EXPECT_EQ(read("compare", "--filter", "nearest").reference.filter, Sampling::nearest);
   EXPECT_EQ(read("compare", "--backend", "auto").backend.context.backend, std::nullopt);
   const std::string text = refusal("compare", "--filter", "bilinaer");
   EXPECT_TRUE(says(text, "--filter: unknown filter `bilinaer`")) << text;

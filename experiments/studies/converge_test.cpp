@@ -34,7 +34,7 @@ class Converge : public ::testing::Test {
         baked_(bake(base_surface(), {.text = "reference", .name = "reference", .options = {}}, scene_,
                     effects_on(derive_effects(scene_)), no_progress)),
         method_(gpu_, baked_),
-        sampler_(context_.info(), gpu_, method_, ReferenceFilter::after_shading, false) {}
+        sampler_(context_.info(), gpu_, method_, Sampling::after_shading, false) {}
 
   [[nodiscard]] Supersampled picture(int spp) const { return sampler_.render(view_, spp, fixed_seed, no_progress); }
 

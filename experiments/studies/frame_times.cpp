@@ -214,7 +214,7 @@ std::vector<glm::dvec2> frame_offsets(int count, std::uint64_t seed) {
   };
   std::vector<glm::dvec2> offsets;
   for (int i = 0; i < count; ++i) {
-    const SampleDigits digits = sample_digits(SamplePair::pixel, static_cast<std::uint32_t>(i));
+    const glm::uvec2 digits = sample_digits(SamplePair::pixel, static_cast<std::uint32_t>(i));
     offsets.emplace_back(in_pixel(digits.x, 0), in_pixel(digits.y, 1));
   }
   return offsets;

@@ -125,8 +125,8 @@ FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& sc
   return settings.footprint.value_or(scene.footprint.value_or(default_footprint_filter));
 }
 
-ProgramSettings frame_program(const Scene& scene, const FootprintFilter& filter) {
-  return {.sampling = Sampling::frame, .footprint = filter, .orthographic = scene.camera.orthographic};
+ShaderVariant frame_program(const Scene& scene, const FootprintFilter& filter) {
+  return {.footprint = filter, .orthographic = scene.camera.orthographic};
 }
 
 std::optional<DiskCache> cache_of(const RunSettings& settings) {
@@ -306,21 +306,21 @@ StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) co
 InteriorFinder Stage::interior_finder() const { return {*prepared_->gpu, scene()}; }
 
 FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
-  ProgramSettings program = frame_program(scene(), footprint_filter_of(settings_, scene()));
-  program.environment = EnvironmentUse::dense;
-  return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
+  ShaderVariant wanted = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  wanted.environment = EnvironmentUse::dense;
+  return {context().info(), *prepared_->gpu, method.gpu(), size_, wanted, settings_.backend.tile};
 }
 
 FrameRenderer Stage::counting_frames(const StagedMethod& method, Counting counting) const {
-  ProgramSettings program = frame_program(scene(), method.filter());
-  program.counting = counting;
-  return {context().info(), *prepared_->gpu, method.gpu(), size_, program, settings_.backend.tile};
+  ShaderVariant wanted = frame_program(scene(), method.filter());
+  wanted.counting = counting;
+  return {context().info(), *prepared_->gpu, method.gpu(), size_, wanted, settings_.backend.tile};
 }
 
 ForwardProgram Stage::program_for_cost(const StagedMethod& method, const FixedTrips& trips) const {
-  ProgramSettings program = frame_program(scene(), method.filter());
-  program.fixed_trips = trips;
-  return forward_program(*prepared_->gpu, method.baked(), program);
+  ShaderVariant wanted = frame_program(scene(), method.filter());
+  wanted.fixed_trips = trips;
+  return forward_program(*prepared_->gpu, method.baked(), wanted);
 }
 
 Supersampler Stage::finest_level(const StagedMethod& method) const {

@@ -48,8 +48,8 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The footprint filter: the settings', else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
 
-/// The settings of a program that draws frames of a scene.
-[[nodiscard]] ProgramSettings frame_program(const Scene& scene, const FootprintFilter& filter);
+/// What is wanted of a program that draws frames of a scene (forward_program).
+[[nodiscard]] ShaderVariant frame_program(const Scene& scene, const FootprintFilter& filter);
 
 /// How a stage is set up.
 struct StageOptions {

@@ -144,7 +144,7 @@ TEST(ClearCoat, ReflectsAnEnvironment) {
     scene.environment = constant_environment(glm::vec3(1.0F));
     TestRenderer renderer(scene, {edge, edge});
     const Image drawn = renderer.reference(64).mean;
-    const Image listed = renderer.reference(16, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+    const Image listed = renderer.reference(16, 1, Sampling::after_shading, 0, EnvironmentUse::dense).mean;
     const Image looked_up = renderer.frame(base_surface(), {}, {}, 0, 1.0, EnvironmentUse::prefiltered);
     for (const int px : {2, edge / 2}) {
       const glm::dvec2 at = centre(px, edge / 2);

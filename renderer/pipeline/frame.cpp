@@ -32,11 +32,11 @@ glm::dvec4 mean_counts(const Image& counts) {
 }  // namespace
 
 FrameRenderer::FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
-                             const glm::ivec2& size, const ProgramSettings& settings, int tile_edge)
+                             const glm::ivec2& size, const ShaderVariant& wanted, int tile_edge)
     : scene_(&scene),
       method_(&method),
-      footprint_(settings.footprint),
-      program_(scene, method.baked(), settings),
+      footprint_(wanted.footprint),
+      program_(scene, method.baked(), wanted),
       tiles_(tiles_of(size, edge_of(context, tile_edge))),
       target_(tiles_.front().size.x, tiles_.front().size.y, radiance_format, true) {}
 

@@ -13,7 +13,7 @@ class FrameRenderer {
  public:
   /// tile_edge: largest tile drawn at once, pixels; 0: as large as the GL supports, at most 4096.
   FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, const glm::ivec2& size,
-                const ProgramSettings& settings, int tile_edge = 0);
+                const ShaderVariant& wanted, int tile_edge = 0);
 
   /// Runs the method's frame build if one is due, and draws a view; the pixels stay on the GPU. The cost of a frame is
   /// the time of this call up to glFinish.

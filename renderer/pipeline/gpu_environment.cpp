@@ -1,7 +1,9 @@
 // Creates the textures of each use of an environment, and uploads visibility as layers and vertex attributes.
 #include "renderer/pipeline/gpu_environment.hpp"
 
-#include <glm/glm.hpp>
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -20,10 +22,22 @@ namespace {
 
 gl::Buffer block_of(const std::vector<glm::vec4>& values) { return gl::Buffer(std::as_bytes(std::span(values))); }
 
-gl::Texture plain_texture(const Image& image, GLenum internal_format, GLenum format) {
-  gl::Texture texture(internal_format, image.width, image.height);
-  texture.upload(0, image.width, image.height, format, GL_FLOAT, image.texels.data());
-  return texture;
+SampledTexture sampled(const PrefilteredTexture& texture, gl::Sampler sampler) {
+  return {upload_texels(texture), std::move(sampler), byte_count(texture)};
+}
+
+// Layers of one level, blended.
+SampledTexture blended_layers(std::string name, std::vector<Image> layers) {
+  std::vector<std::vector<Image>> chains;
+  for (Image& layer : layers) chains.push_back({std::move(layer)});
+  return sampled(make_array_texture(std::move(name), std::move(chains), Storage::fp32, {}),
+                 gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE));
+}
+
+// A table that is read texel by texel.
+SampledTexture plain_table(std::string name, Image texels) {
+  return sampled(make_level_texture(std::move(name), std::move(texels), Storage::fp32, {}),
+                 gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE));
 }
 
 constexpr std::size_t vectors_per_vertex = 5;
@@ -38,16 +52,6 @@ const CosineTable& table_of_kind(const ReflectedLobeKind& kind) {
   }
   tables.emplace_back(kind, std::make_unique<const CosineTable>(make_cosine_table(kind)));
   return *tables.back().second;
-}
-
-PrefilteredTexture table_of(const BaseBrdf& brdf) {
-  std::vector<std::vector<Image>> layers;
-  const auto add = [&](NormalDistribution distribution) {
-    for (const Image& layer : table_of_kind(reflected_lobe_kind(brdf, distribution)).layers) layers.push_back({layer});
-  };
-  add(brdf.distribution);
-  if (brdf.distribution == NormalDistribution::ggx) add(NormalDistribution::beckmann);
-  return make_array_texture("area_cosines", std::move(layers), Storage::fp32, {});
 }
 
 }  // namespace
@@ -67,48 +71,50 @@ ReflectedLobeKind reflected_lobe_kind(const BaseBrdf& brdf, NormalDistribution d
   return {distribution, TabulatedGeometry::none};
 }
 
-GpuAreaCosines::GpuAreaCosines(const BaseBrdf& brdf)
-    : sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
-  const PrefilteredTexture table = table_of(brdf);
-  bytes_ = byte_count(table);
-  table_ = upload_texels(table);
+SampledTexture area_cosines_of(const BaseBrdf& brdf) {
+  std::vector<Image> layers;
+  const auto add = [&](NormalDistribution distribution) {
+    std::ranges::copy(table_of_kind(reflected_lobe_kind(brdf, distribution)).layers, std::back_inserter(layers));
+  };
+  add(brdf.distribution);
+  if (brdf.distribution == NormalDistribution::ggx) add(NormalDistribution::beckmann);
+  return blended_layers("area_cosines", std::move(layers));
 }
 
-void GpuAreaCosines::bind(GLuint unit) const { gl::bind_texture(unit, table_, sampler_.name()); }
+std::size_t GpuEnvironment::stack_bytes() const {
+  std::size_t bytes = 0;
+  if (!parts_[0]) return bytes;
+  for (const SampledTexture& map : parts_[0]->textures) bytes += map.bytes;
+  return bytes;
+}
 
 GpuEnvironment::Part GpuEnvironment::stack_part() const {
-  const RadianceStack stack = prefilter_environment(looked_up(), no_progress);
-  const PrefilteredTexture maps = make_array_texture("environment_stack", stack.layers, Storage::fp32, {});
-  std::vector<std::vector<Image>> layers;
-  for (Image& layer : make_lobe_table().layers) layers.push_back({std::move(layer)});
-  const PrefilteredTexture lobes = make_array_texture("environment_lobes", std::move(layers), Storage::fp32, {});
-  Part part;
-  part.textures.push_back(upload_texels(maps));
-  part.textures.push_back(plain_texture(stack.irradiance, GL_RGBA32F, GL_RGBA));
-  part.textures.push_back(upload_texels(lobes));
-  part.sampler = gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+  const auto smooth = [] { return gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE); };
+  RadianceStack stack = prefilter_environment(looked_up(), no_progress);
   std::vector<glm::vec4> values{glm::vec4(stack.mean, 0.0F),
                                 glm::vec4(stack.finest_sharpness, static_cast<float>(stack.map_count()), 0.0F, 0.0F)};
   for (const SmallSun& sun : apart_.suns) {
     values.emplace_back(sun.direction, 0.0F);
     values.emplace_back(sun.irradiance, 0.0F);
   }
-  part.block = block_of(values);
-  part.bytes = byte_count(maps) + byte_count(lobes) + stack.irradiance.texels.size() * sizeof(float);
+  Part part{.textures = {}, .block = block_of(values)};
+  part.textures.push_back(
+      sampled(make_array_texture("environment_stack", std::move(stack.layers), Storage::fp32, {}), smooth()));
+  part.textures.push_back(
+      sampled(make_level_texture("environment_irradiance", std::move(stack.irradiance), Storage::fp32, {}), smooth()));
+  part.textures.push_back(blended_layers("environment_lobes", make_lobe_table().layers));
   return part;
 }
 
 GpuEnvironment::Part GpuEnvironment::table_part() const {
   const Image& map = *environment_.radiance;
-  const DirectionTable table = direction_table(map);
-  Part part;
-  part.textures.push_back(plain_texture(table.radiance, GL_RGBA32F, GL_RGBA));
-  part.textures.push_back(plain_texture(table.sums, GL_RG32F, GL_RG));
-  part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-  part.block =
-      block_of({glm::vec4(static_cast<float>(map.width), static_cast<float>(map.height), environment_.rotation, 0.0F),
-                glm::vec4(0.0F)});
-  part.bytes = (table.radiance.texels.size() + table.sums.texels.size()) * sizeof(float);
+  DirectionTable table = direction_table(map);
+  Part part{.textures = {},
+            .block = block_of(
+                {glm::vec4(static_cast<float>(map.width), static_cast<float>(map.height), environment_.rotation, 0.0F),
+                 glm::vec4(0.0F)})};
+  part.textures.push_back(plain_table("environment_radiance", std::move(table.radiance)));
+  part.textures.push_back(plain_table("environment_sums", std::move(table.sums)));
   return part;
 }
 
@@ -117,42 +123,29 @@ GpuEnvironment::Part GpuEnvironment::light_part() const {
   std::vector<DenseLight> lights = dense_lights(environment_);
   if (lights.empty()) lights.push_back({.direction = {0, 1, 0}, .irradiance = glm::vec3(0.0F)});
   Image irradiance(static_cast<int>(lights.size()), 1, 4), directions(static_cast<int>(lights.size()), 1, 4);
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      irradiance.texels[4 * i + static_cast<std::size_t>(c)] = lights[i].irradiance[c];
-      directions.texels[4 * i + static_cast<std::size_t>(c)] = lights[i].direction[c];
-    }
+  for (int i = 0; i < irradiance.width; ++i) {
+    const DenseLight& light = lights[static_cast<std::size_t>(i)];
+    std::ranges::copy_n(glm::value_ptr(light.irradiance), 3, irradiance.at(i, 0).begin());
+    std::ranges::copy_n(glm::value_ptr(light.direction), 3, directions.at(i, 0).begin());
   }
-  Part part;
-  part.textures.push_back(plain_texture(irradiance, GL_RGBA32F, GL_RGBA));
-  part.textures.push_back(plain_texture(directions, GL_RGBA32F, GL_RGBA));
-  part.sampler = gl::nearest_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-  part.block = block_of({glm::vec4(0.0F), glm::vec4(0.0F)});
-  part.bytes = (irradiance.texels.size() + directions.texels.size()) * sizeof(float);
+  Part part{.textures = {}, .block = block_of({glm::vec4(0.0F), glm::vec4(0.0F)})};
+  part.textures.push_back(plain_table("environment_lights", std::move(irradiance)));
+  part.textures.push_back(plain_table("environment_directions", std::move(directions)));
   return part;
 }
 
 void GpuEnvironment::prepare(EnvironmentUse use) {
   std::optional<Part>& part = parts_.at(static_cast<std::size_t>(use));
   if (part) return;
-  switch (use) {
-    case EnvironmentUse::prefiltered:
-      part = stack_part();
-      return;
-    case EnvironmentUse::sampled:
-      part = table_part();
-      return;
-    case EnvironmentUse::dense:
-      part = light_part();
-      return;
-  }
+  part = use == EnvironmentUse::prefiltered ? stack_part()
+         : use == EnvironmentUse::sampled   ? table_part()
+                                            : light_part();
 }
 
 void GpuEnvironment::bind(const TextureUnits& units, EnvironmentUse use) const {
   const Part& part = parts_.at(static_cast<std::size_t>(use)).value();
   const std::vector<std::string_view> names = environment_textures(use);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    gl::bind_texture(units.unit(names[i]), part.textures.at(i), part.sampler.name());
+  for (std::size_t i = 0; i < names.size(); ++i) part.textures.at(i).bind(units.unit(names[i]));
   gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::environment, part.block.name());
 }
 
@@ -171,13 +164,9 @@ Scene refined_for_visibility(Scene scene, const EffectSet& effects, std::span<co
 GpuVisibility::GpuVisibility(const Scene& scene, const Environment& environment, const Progress& progress,
                              const DiskCache* cache)
     : field_(cached_visibility_field(scene, environment, cache, progress)),
-      sampler_(gl::trilinear_sampler(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)) {
-  std::vector<std::vector<Image>> chains;
-  for (const Image& layer : field_.layers) chains.push_back({layer});
-  const PrefilteredTexture maps = make_array_texture("visibility_maps", std::move(chains), Storage::fp32, {});
-  maps_ = upload_texels(maps);
+      maps_(blended_layers("visibility_maps", field_.layers)) {
   for (const Mesh& mesh : scene.meshes) vertex_count_ += mesh.vertices.size();
-  bytes_ = byte_count(maps) + vertex_count_ * vectors_per_vertex * sizeof(glm::vec4);
+  bytes_ = maps_.bytes + vertex_count_ * vectors_per_vertex * sizeof(glm::vec4);
 }
 
 std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t material) const {
@@ -195,7 +184,5 @@ std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t
   }
   return values;
 }
-
-void GpuVisibility::bind(GLuint unit) const { gl::bind_texture(unit, maps_, sampler_.name()); }
 
 }  // namespace footprint

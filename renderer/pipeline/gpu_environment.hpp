@@ -20,24 +20,19 @@
 
 namespace footprint {
 
-/// The texture `area_cosines` of area_lobes.glsl: the layers of a CosineTable for lobes of the base BRDF and, if that
-/// is GGX, those for lobes of Beckmann's distribution, because methods may have lobes without a tail. The context that
-/// created it must be current, also at destruction.
-class GpuAreaCosines {
- public:
-  /// Fits the table, which takes about a second of one core. Throws Error (machine): out of memory.
-  explicit GpuAreaCosines(const BaseBrdf& brdf);
+/// A texture with a sampler of its own. The context that created it must be current, also at destruction.
+struct SampledTexture {
+  gl::Texture texture;
+  gl::Sampler sampler;
+  std::size_t bytes = 0;
 
-  /// Binds the table to a texture unit.
-  void bind(GLuint unit) const;
-
-  [[nodiscard]] std::size_t bytes() const { return bytes_; }
-
- private:
-  std::size_t bytes_ = 0;
-  gl::Texture table_;
-  gl::Sampler sampler_;
+  void bind(GLuint unit) const { gl::bind_texture(unit, texture, sampler.name()); }
 };
+
+/// The texture `area_cosines` of area_lobes.glsl: the layers of a CosineTable for lobes of the base BRDF and, if that
+/// is GGX, those for lobes of Beckmann's distribution, because methods may have lobes without a tail. Fits the table,
+/// which takes about a second of one core. Throws Error (machine): out of memory.
+[[nodiscard]] SampledTexture area_cosines_of(const BaseBrdf& brdf);
 
 /// The kind of lobe with the geometry factor of a base BRDF.
 [[nodiscard]] ReflectedLobeKind reflected_lobe_kind(const BaseBrdf& brdf, NormalDistribution distribution);
@@ -64,14 +59,12 @@ class GpuEnvironment {
   [[nodiscard]] const Environment& looked_up() const { return apart_.rest; }
 
   /// Bytes of the prefiltered maps; 0 before they exist. The reference's tables are not part of a method's cost.
-  [[nodiscard]] std::size_t stack_bytes() const { return parts_[0] ? parts_[0]->bytes : 0; }
+  [[nodiscard]] std::size_t stack_bytes() const;
 
  private:
   struct Part {
-    std::vector<gl::Texture> textures;  // in the order of environment_textures (shader_source.hpp)
-    gl::Sampler sampler;
+    std::vector<SampledTexture> textures;  // in the order of environment_textures (shader_source.hpp)
     gl::Buffer block;
-    std::size_t bytes = 0;
   };
   [[nodiscard]] Part stack_part() const;
   [[nodiscard]] Part table_part() const;
@@ -104,7 +97,7 @@ class GpuVisibility {
   [[nodiscard]] std::vector<glm::vec4> attributes(const Scene& scene, std::size_t material) const;
 
   /// Binds the maps to a texture unit.
-  void bind(GLuint unit) const;
+  void bind(GLuint unit) const { maps_.bind(unit); }
 
   /// Bytes of the maps and of the vertices' values.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
@@ -115,8 +108,7 @@ class GpuVisibility {
  private:
   VisibilityField field_;
   std::size_t vertex_count_ = 0, bytes_ = 0;
-  gl::Texture maps_;
-  gl::Sampler sampler_;
+  SampledTexture maps_;
 };
 
 }  // namespace footprint

@@ -296,7 +296,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
   }
   shared_bytes_ = uploads.bytes();
   if (same != nullptr) environment_ = same->environment_;
-  area_cosines_ = same != nullptr ? same->area_cosines_ : std::make_shared<std::optional<GpuAreaCosines>>();
+  area_cosines_ = same != nullptr ? same->area_cosines_ : std::make_shared<std::optional<SampledTexture>>();
   make_lights(context, scene);
   if (!hides_environment(effects)) return;
   if (same != nullptr && same->visibility_ != nullptr) {
@@ -355,8 +355,8 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
   }
 }
 
-const GpuAreaCosines& GpuScene::area_cosines() {
-  if (!*area_cosines_) area_cosines_->emplace(brdf_);
+const SampledTexture& GpuScene::area_cosines() {
+  if (!*area_cosines_) *area_cosines_ = area_cosines_of(brdf_);
   return **area_cosines_;
 }
 

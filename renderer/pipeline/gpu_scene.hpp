@@ -142,7 +142,7 @@ class GpuScene {
   /// program exists, the prefiltered environment and the table for area lights.
   [[nodiscard]] std::size_t shared_bytes() const {
     return shared_bytes_ + (environment_ ? environment_->stack_bytes() : 0) +
-           (area_cosines_ && *area_cosines_ ? (*area_cosines_)->bytes() : 0);
+           (area_cosines_ && *area_cosines_ ? (*area_cosines_)->bytes : 0);
   }
   /// Null without environment light.
   [[nodiscard]] const GpuEnvironment* environment() const { return environment_.get(); }
@@ -151,7 +151,7 @@ class GpuScene {
   [[nodiscard]] const GpuVisibility* visibility() const { return visibility_.get(); }
   [[nodiscard]] SamplerCache& samplers() { return samplers_; }
   /// The table of lobes for area lights, fitted on the first call.
-  [[nodiscard]] const GpuAreaCosines& area_cosines();
+  [[nodiscard]] const SampledTexture& area_cosines();
 
   /// Binds the light blocks and the shadow maps at their unit of `units`, and sets the light counts of `program`.
   /// area_by_lobes: whether the program integrates area lights by lobes, if the light allows it.
@@ -178,7 +178,7 @@ class GpuScene {
   LightCounts light_counts_;
   std::size_t facet_lobes_ = 1;
   std::shared_ptr<GpuEnvironment> environment_;
-  std::shared_ptr<std::optional<GpuAreaCosines>> area_cosines_;
+  std::shared_ptr<std::optional<SampledTexture>> area_cosines_;
   std::shared_ptr<const GpuVisibility> visibility_;
   SamplerCache samplers_;
   SceneContent content_;

@@ -30,7 +30,7 @@ float depth_limit(const Camera& camera) {
 }  // namespace
 
 glm::dvec2 jitter_of(std::uint64_t seed, std::uint32_t frame) {
-  const SampleDigits point = sample_digits(SamplePair::pixel, frame);
+  const glm::uvec2 point = sample_digits(SamplePair::pixel, frame);
   const std::uint32_t own = half_seed(seed, 1);
   return glm::dvec2(unit_interval(scrambled(point.x, own)), unit_interval(scrambled(point.y, combined_seed(own, 1)))) -
          0.5;

@@ -29,7 +29,7 @@ TEST(Reference, SameSeedSameBytes) {
 TEST(Reference, DoesNotDependOnTheTiles) {
   TestRenderer renderer(bumpy_square(), {50, 34});
   const Image whole = renderer.reference(64, 3).mean;
-  const Image tiled = renderer.reference(64, 3, ReferenceFilter::after_shading, 16).mean;
+  const Image tiled = renderer.reference(64, 3, Sampling::after_shading, 16).mean;
   const auto figures = compare_images(tiled, whole, 1.0F);
   ASSERT_TRUE(figures.has_value());
   EXPECT_LT(figures->relative_rmse, 1e-3);  // a sample on the edge of two texels may take the other one
@@ -52,7 +52,7 @@ TEST(Reference, DrawnAndFilteredTexelsAgree) {
       .name = "rough", .image = std::make_shared<const Image>(roughness), .coordinates = {}};
   TestRenderer renderer(scene, {16, 16});
   const auto mean = [&](TexelUse texels) {
-    return renderer.reference(4096, 5, ReferenceFilter::after_shading, 0, EnvironmentUse::sampled, texels);
+    return renderer.reference(4096, 5, Sampling::after_shading, 0, EnvironmentUse::sampled, texels);
   };
   const Supersampled drawn = mean(TexelUse::drawn), filtered = mean(TexelUse::filtered);
   double off = 0, error = 0;

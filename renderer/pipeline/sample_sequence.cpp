@@ -72,7 +72,7 @@ int grid_of(int spp, int fewest_passes) {
 }
 
 glm::dvec2 offset_of(std::uint32_t pass, std::uint32_t seed) {
-  const SampleDigits point = sample_digits(SamplePair::pixel, pass);
+  const glm::uvec2 point = sample_digits(SamplePair::pixel, pass);
   return {scrambled(point.x, combined_seed(seed, 0)) * fixed_point - 0.5,
           scrambled(point.y, combined_seed(seed, 1)) * fixed_point - 0.5};
 }
@@ -85,9 +85,9 @@ std::uint32_t digits_of(int grid, int place) {
 
 }  // namespace
 
-SampleDigits sample_digits(SamplePair pair, std::uint32_t index) {
+glm::uvec2 sample_digits(SamplePair pair, std::uint32_t index) {
   const std::uint32_t own = mixed(mixers.at(static_cast<std::size_t>(pair)), index);
-  return {.x = own, .y = pascal(own)};
+  return {own, pascal(own)};
 }
 
 std::uint32_t scrambled(std::uint32_t digits, std::uint32_t seed) {
@@ -139,7 +139,7 @@ std::uint32_t sample_in_cell(int grid, const glm::ivec2& cell) {
   const auto cells = static_cast<std::uint32_t>(grid * grid);
   const std::uint32_t mask = static_cast<std::uint32_t>(grid) - 1U;
   for (std::uint32_t index = 0; index < cells; ++index) {
-    const SampleDigits point = sample_digits(SamplePair::pixel, index);
+    const glm::uvec2 point = sample_digits(SamplePair::pixel, index);
     if ((point.x & mask) == x && (point.y & mask) == y) return index;
   }
   return 0;

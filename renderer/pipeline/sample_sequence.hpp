@@ -18,15 +18,11 @@ enum class SamplePair {
   choice,  ///< the lobe; uses the first dimension only
 };
 
-/// The coordinates of a point before scrambling: binary digits, the first one in bit 0.
-struct SampleDigits {
-  std::uint32_t x = 0, y = 0;
-};
-
-/// Dimensions 0 and 1 of Sobol's sequence (1967) at a point of `pair`. Each pair first mixes the digits of the index by
-/// its own triangular matrix. That preserves the elementary intervals and decorrelates the pairs, so two of them fill
-/// four dimensions. Linear over GF(2): the digits of i ^ j are those of i xor those of j.
-[[nodiscard]] SampleDigits sample_digits(SamplePair pair, std::uint32_t index);
+/// Dimensions 0 and 1 of Sobol's sequence (1967) at a point of `pair` before scrambling: binary digits, the first one
+/// in bit 0. Each pair first mixes the digits of the index by its own triangular matrix. That preserves the elementary
+/// intervals and decorrelates the pairs, so two of them fill four dimensions. Linear over GF(2): the digits of i ^ j
+/// are those of i xor those of j.
+[[nodiscard]] glm::uvec2 sample_digits(SamplePair pair, std::uint32_t index);
 
 /// Owen's scrambling (1995) by hashing (Laine and Karras 2011; Burley 2020) with the constants of Vegdahl (2021): a
 /// hash of the digits before it flips each digit. Returns 32 digits, the first one in bit 31: a fixed-point number in

@@ -22,7 +22,7 @@ struct Point {
 };
 
 Point point_of(SamplePair pair, std::uint32_t index, std::uint32_t seed) {
-  const SampleDigits digits = sample_digits(pair, index);
+  const glm::uvec2 digits = sample_digits(pair, index);
   return {scrambled(digits.x, combined_seed(seed, 0)), scrambled(digits.y, combined_seed(seed, 1))};
 }
 
@@ -85,11 +85,11 @@ TEST(SampleSequence, PixelsFollowSobolsTable) {
 // first block, added without carry. Of a block that is not aligned they are others.
 TEST(SampleSequence, AnAlignedBlockIsTheFirstOneAdded) {
   const auto added = [](SamplePair pair, std::uint32_t block, std::uint32_t step) {
-    const SampleDigits a = sample_digits(pair, block), b = sample_digits(pair, step);
+    const glm::uvec2 a = sample_digits(pair, block), b = sample_digits(pair, step);
     return std::pair(a.x ^ b.x, a.y ^ b.y);
   };
   const auto whole = [](SamplePair pair, std::uint32_t index) {
-    const SampleDigits digits = sample_digits(pair, index);
+    const glm::uvec2 digits = sample_digits(pair, index);
     return std::pair(digits.x, digits.y);
   };
   for (const SamplePair pair : pairs) {

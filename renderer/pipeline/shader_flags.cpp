@@ -59,7 +59,7 @@ bool reflects_diffusely(const Variant& v) {
 bool draws(const Variant& v) {
   const bool directions = samples_environment(v) && v.environment == EnvironmentUse::sampled;
   const bool facets = has(v.effects, Effect::microgeometry_visibility) && v.sampling != Sampling::frame;
-  return v.sampling == Sampling::texel || directions || facets || draws_texels(v) || samples_areas(v);
+  return v.sampling == Sampling::after_shading || directions || facets || draws_texels(v) || samples_areas(v);
 }
 
 struct FlagRow {
@@ -79,8 +79,8 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"geometry_smith", is_geometry<GeometryTerm::smith>},
     {"fresnel_schlick", [](const Variant& v) { return v.brdf.fresnel == FresnelTerm::schlick; }},
     {"sampling_frame", is_sampling<Sampling::frame>},
-    {"sampling_texel", is_sampling<Sampling::texel>},
-    {"sampling_point", is_sampling<Sampling::point>},
+    {"sampling_texel", is_sampling<Sampling::after_shading>},
+    {"sampling_point", [](const Variant& v) { return v.sampling == Sampling::nearest || v.sampling == Sampling::bilinear; }},
     {"random_draws", draws},
     {"filter_anisotropic", is_filter<FootprintFilterKind::anisotropic>},
     {"filter_box", is_filter<FootprintFilterKind::box>},

@@ -16,24 +16,19 @@
 
 namespace footprint {
 
-/// The texels that a sample reads.
+/// How one sample filters the maps.
 enum class Sampling {
-  frame,  ///< the pixel's footprint, prefiltered: one sample per pixel
-  texel,  ///< one texel of the finest level, drawn with the bilinear weights: filters after shading
-  point,  ///< the finest level at a point; the sampler decides between nearest and bilinear
-};
-
-/// How one sample of the reference filters the maps.
-enum class ReferenceFilter {
+  frame,          ///< the pixel's footprint, prefiltered: one sample per pixel
   after_shading,  ///< shades one texel's own base BRDF; the texel is drawn with the bilinear weights
-  nearest,        ///< shades the nearest texel
-  bilinear,       ///< shades the bilinear mean of the map's values, so it interpolates the normal first
+  nearest,        ///< shades the nearest texel of the finest level
+  bilinear,       ///< shades the bilinear mean of the finest level's values, so it interpolates the normal first
 };
 
-inline constexpr std::array<Word<ReferenceFilter>, 3> reference_filters{{
-    {ReferenceFilter::after_shading, "after_shading"},
-    {ReferenceFilter::nearest, "nearest"},
-    {ReferenceFilter::bilinear, "bilinear"},
+/// Those of the reference.
+inline constexpr std::array<Word<Sampling>, 3> reference_filters{{
+    {Sampling::after_shading, "after_shading"},
+    {Sampling::nearest, "nearest"},
+    {Sampling::bilinear, "bilinear"},
 }};
 
 /// How a program integrates the light of an environment.
@@ -64,8 +59,8 @@ struct FixedTrips {
 
 /// What a program is compiled for. Equal variants give equal text.
 struct ShaderVariant {
-  EffectSet effects;
-  BaseBrdf brdf;
+  EffectSet effects{};
+  BaseBrdf brdf{};
   Sampling sampling = Sampling::frame;
   FootprintFilter footprint{};  ///< of a frame
   Counting counting = Counting::none;

@@ -222,7 +222,7 @@ std::string shared_stage(std::string_view file, const ShaderFlags& flags) {
 }
 
 std::string shadow_fragment_shader(const EffectSet& effects) {
-  const ShaderFlags flags = shader_flags({.effects = effects, .brdf = {}});
+  const ShaderFlags flags = shader_flags({.effects = effects});
   ShaderText text(flags);
   text.add(version_line);
   if (has(effects, Effect::alpha_mask)) {

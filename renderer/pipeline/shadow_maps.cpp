@@ -85,8 +85,7 @@ ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const
 
 void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batches, SamplerCache& samplers) {
   constexpr float far_plane = 1.0F;
-  const gl::Program program("shadow maps",
-                            shared_stage("shadow_vertex.glsl", shader_flags({.effects = effects, .brdf = {}})),
+  const gl::Program program("shadow maps", shared_stage("shadow_vertex.glsl", shader_flags({.effects = effects})),
                             shadow_fragment_shader(effects));
   const gl::Framebuffer framebuffer = gl::Framebuffer::make();
   const GLuint name = framebuffer.name();

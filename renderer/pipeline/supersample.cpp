@@ -17,15 +17,6 @@ constexpr std::array<GLenum, 1> sample_format{GL_RGBA32F};
 constexpr std::array<GLenum, 2> sum_formats{GL_RGBA32F, GL_R32F};  // mean and count, number of covered samples
 constexpr GLint sum_count = sum_formats.size();
 
-ProgramSettings settings_of(ReferenceFilter filter, bool orthographic, EnvironmentUse environment) {
-  return {.sampling = filter == ReferenceFilter::after_shading ? Sampling::texel : Sampling::point,
-          .sampler_state = filter == ReferenceFilter::bilinear ? SamplerState::trilinear : SamplerState::nearest,
-          .footprint = {},
-          .counting = Counting::none,
-          .orthographic = orthographic,
-          .environment = environment};
-}
-
 // `tile` has row 0 at the bottom, the images at the top.
 void copy_tile(const Image& from, const Tile& tile, Image& to) {
   for (int y = 0; y < tile.size.y; ++y) {
@@ -130,12 +121,12 @@ bool is_unresolved(std::span<const float> mean, std::span<const float> error, fl
 
 }  // namespace
 
-Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method,
-                           ReferenceFilter filter, bool orthographic, int tile_edge, EnvironmentUse environment)
+Supersampler::Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, Sampling filter,
+                           bool orthographic, int tile_edge, EnvironmentUse environment)
     : scene_(&scene),
       method_(&method),
       tile_edge_(std::min(tile_edge > 0 ? tile_edge : default_tile_edge, context.max_framebuffer_size / 4)),
-      program_(scene, method.baked(), settings_of(filter, orthographic, environment)),
+      program_(scene, method.baked(), {.sampling = filter, .orthographic = orthographic, .environment = environment}),
       resolve_("resolve samples", screen_vertex_shader(), shared_stage("resolve_samples.glsl")) {}
 
 void Supersampler::begin(const glm::ivec2& tile, int grid) const {

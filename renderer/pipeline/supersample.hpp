@@ -34,7 +34,7 @@ class Supersampler {
  public:
   /// tile_edge: largest tile accumulated at once, pixels; 0: 512. It changes the result by rounding only.
   /// environment: `sampled` or `dense`; for the base surface only.
-  Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, ReferenceFilter filter,
+  Supersampler(const gl::ContextInfo& context, GpuScene& scene, const GpuMethod& method, Sampling filter,
                bool orthographic, int tile_edge = 0, EnvironmentUse environment = EnvironmentUse::sampled);
 
   /// Deterministic for a seed.

@@ -32,61 +32,52 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info.honours | shared);
 }
 
-// A method whose samples are many, and whose module can, integrates itself; drawn for one sample per pixel, directions
-// would be all noise. Directional lights serve every module.
-EnvironmentUse environment_of(const Method& method, const ProgramSettings& settings) {
-  if (settings.environment == EnvironmentUse::dense) return EnvironmentUse::dense;
-  const bool itself = method.info.draws_directions && settings.sampling != Sampling::frame;
-  return itself ? settings.environment : EnvironmentUse::prefiltered;
-}
-
 // How a program integrates area lights.
 struct AreaUse {
   std::size_t points = 0;  // evaluated as points of light
   bool by_lobes = false, sampled = false;
 };
 
-// As for environments, a module whose samples are many integrates itself. Other modules list their lobes if they honour
-// environments; patches of facets and sums over texels list none.
-AreaUse area_use(const GpuScene& scene, const Method& method, const ProgramSettings& settings) {
+// Modules that do not integrate themselves list their lobes if they honour environments; patches of facets and sums
+// over texels list none.
+AreaUse area_use(const GpuScene& scene, const Method& method, bool integrates_itself) {
   const GpuScene::LightCounts& lights = scene.light_counts();
-  if (method.info.draws_directions && settings.sampling != Sampling::frame)
-    return {.sampled = lights.of[light_type::area] > 0};
+  if (integrates_itself) return {.sampled = lights.of[light_type::area] > 0};
   const bool lists_lobes = has(method.info.honours, Effect::environment_light) && !method.info.sums_environment &&
                            !has(scene.effects(), Effect::clear_coat) && !has_patches(scene.effects());
   if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.of[light_type::area_point]};
   return {.points = lights.points_alone, .by_lobes = true};
 }
 
-ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
-  const AreaUse area = area_use(scene, *baked.method, settings);
-  PerLightType<std::size_t> lights = scene.light_counts().of;
-  lights[light_type::area_point] = area.points;
-  return {.effects = effects_of(scene, *baked.method),
-          .brdf = scene.brdf(),
-          .sampling = settings.sampling,
-          .footprint = settings.footprint,
-          .counting = settings.counting,
-          .fixed_trips = settings.fixed_trips,
-          .orthographic = settings.orthographic,
-          .horizon_open = scene.horizon() == Horizon::open,
-          .shared_coordinates = scene.shared_coordinates(),
-          .surface_coordinates = baked.materials.front().surface_coordinates.has_value(),
-          .screen_derivatives = baked.method->info.screen_derivatives && settings.sampling == Sampling::frame,
-          .finest_coat = baked.method->info.reads_finest_level && settings.sampling == Sampling::frame,
-          .environment = environment_of(*baked.method, settings),
-          .sums_environment = baked.method->info.sums_environment,
-          .environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0,
-          .facet_lobes = scene.facet_lobes(),
-          .lights = lights,
-          .area_lobes = area.by_lobes,
-          .area_sampled = area.sampled,
-          .shadow_maps = scene.light_counts().shadow_maps};
+// What scene and method decide about a program. A method whose samples are many, and whose module can, integrates
+// itself; drawn for one sample per pixel, directions would be all noise. Directional lights serve every module.
+ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, ShaderVariant v) {
+  const MethodInfo& info = baked.method->info;
+  const bool is_frame = v.sampling == Sampling::frame;
+  const bool integrates_itself = info.draws_directions && !is_frame;
+  const AreaUse area = area_use(scene, *baked.method, integrates_itself);
+  v.effects = effects_of(scene, *baked.method);
+  v.brdf = scene.brdf();
+  v.horizon_open = scene.horizon() == Horizon::open;
+  v.shared_coordinates = scene.shared_coordinates();
+  v.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
+  v.screen_derivatives = info.screen_derivatives && is_frame;
+  v.finest_coat = info.reads_finest_level && is_frame;
+  if (v.environment == EnvironmentUse::sampled && !integrates_itself) v.environment = EnvironmentUse::prefiltered;
+  v.sums_environment = info.sums_environment;
+  v.environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0;
+  v.facet_lobes = scene.facet_lobes();
+  v.lights = scene.light_counts().of;
+  v.lights[light_type::area_point] = area.points;
+  v.area_lobes = area.by_lobes;
+  v.area_sampled = area.sampled;
+  v.shadow_maps = scene.light_counts().shadow_maps;
+  return v;
 }
 
-SamplerState sampler_state_of(const ProgramSettings& settings, const gl::ContextInfo& context) {
-  return settings.sampling == Sampling::frame ? frame_sampler_state(settings.footprint, context)
-                                              : settings.sampler_state;
+SamplerState sampler_state_of(const ShaderVariant& variant, const gl::ContextInfo& context) {
+  if (variant.sampling == Sampling::frame) return frame_sampler_state(variant.footprint, context);
+  return variant.sampling == Sampling::bilinear ? SamplerState::trilinear : SamplerState::nearest;
 }
 
 // The method's block in std140: floats next to each other, up to 16 bytes, then vectors 16 bytes apart.
@@ -308,8 +299,8 @@ gl::Program method_program(const BakedMethod& baked, std::string_view name, std:
   }
 }
 
-ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings) {
-  ShaderVariant variant = variant_of(scene, baked, settings);
+ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, ShaderVariant wanted) {
+  const ShaderVariant variant = variant_of(scene, baked, wanted);
   TextureUnits units = forward_units(variant, baked.materials.front());
   units.require_room(scene.context(), baked.spec.text);
   ForwardShaders shaders =
@@ -317,68 +308,47 @@ ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, 
   return {.variant = variant, .units = std::move(units), .shaders = std::move(shaders)};
 }
 
-SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings)
-    : SurfaceProgram(scene, baked, settings, forward_program(scene, baked, settings)) {}
-
-SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings,
-                               ForwardProgram program)
-    : variant_(program.variant),
-      sampler_state_(sampler_state_of(settings, scene.context())),
+SurfaceProgram::SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ShaderVariant& wanted)
+    : forward_(forward_program(scene, baked, wanted)),
+      sampler_state_(sampler_state_of(forward_.variant, scene.context())),
       scene_effects_(scene.effects()),
-      units_(std::move(program.units)),
-      fragment_text_(program.shaders.fragment.text()) {
-  const ForwardShaders& shaders = program.shaders;
-  program_ = method_program(baked, baked.spec.text, shaders.vertex, shaders.fragment);
-  units_.require_all_of(program_, baked.spec.text);
-  if (variant_.area_lobes) (void)scene.area_cosines();
-  if (has(variant_.effects, Effect::environment_light)) scene.environment()->prepare(variant_.environment);
+      program_(method_program(baked, baked.spec.text, forward_.shaders.vertex, forward_.shaders.fragment)) {
+  const ShaderVariant& variant = forward_.variant;
+  forward_.units.require_all_of(program_, baked.spec.text);
+  if (variant.area_lobes) (void)scene.area_cosines();
+  if (has(variant.effects, Effect::environment_light)) scene.environment()->prepare(variant.environment);
 }
 
 void SurfaceProgram::set_samples(const SampleDraw& samples) const {
   const std::vector<std::uint32_t> points = points_of(samples);
-  const auto count = static_cast<GLsizei>(points.size());
-  const auto digits = [&](SamplePair pair) {
-    std::vector<glm::uvec2> all;
-    for (const std::uint32_t point : points) {
-      const SampleDigits of_point = sample_digits(pair, point);
-      all.emplace_back(of_point.x, of_point.y);
-    }
-    return all;
-  };
   const GLuint name = program_.name();
-  const auto set = [&](const char* uniform, auto call) {
-    const GLint location = program_.uniform(uniform);
-    if (location >= 0) call(location);
-  };
-  set("sample_origin", [&](GLint l) { gl::api().ProgramUniform2i(name, l, samples.origin.x, samples.origin.y); });
-  set("sample_grid", [&](GLint l) { gl::api().ProgramUniform1i(name, l, samples.grid); });
-  set("sample_seed", [&](GLint l) { gl::api().ProgramUniform1ui(name, l, samples.seed); });
+  gl::api().ProgramUniform2i(name, program_.uniform("sample_origin"), samples.origin.x, samples.origin.y);
+  gl::api().ProgramUniform1i(name, program_.uniform("sample_grid"), samples.grid);
+  gl::api().ProgramUniform1ui(name, program_.uniform("sample_seed"), samples.seed);
   const auto set_pair = [&](const char* uniform, SamplePair pair) {
-    set(uniform, [&](GLint l) { gl::api().ProgramUniform2uiv(name, l, count, glm::value_ptr(digits(pair).front())); });
+    const GLint location = program_.uniform(uniform);
+    if (location < 0) return;
+    std::vector<glm::uvec2> digits;
+    for (const std::uint32_t point : points) digits.push_back(sample_digits(pair, point));
+    gl::api().ProgramUniform2uiv(name, location, static_cast<GLsizei>(digits.size()), glm::value_ptr(digits.front()));
   };
   set_pair("sample_texels", SamplePair::texel);
   set_pair("draw_places", SamplePair::pixel);
   set_pair("draw_levels", SamplePair::choice);
-  if (program_.uniform("directions_per_sample") >= 0) set_directions(samples);
+  if (program_.uniform("directions_per_sample") >= 0) set_directions(points);
 }
 
 // Sample i takes the directions of the points n i to n i + n - 1, n a power of two: an aligned block, whose digits are
 // its first one's with those of the points 0 to n - 1 added without carry.
-void SurfaceProgram::set_directions(const SampleDraw& samples) const {
+void SurfaceProgram::set_directions(std::vector<std::uint32_t> points) const {
   const bool surrounded = has(scene_effects_, Effect::environment_light);
   const std::uint32_t count = has_patches(scene_effects_) ? directions_of_a_patch
                               : surrounded                ? directions_per_sample
                                                           : directions_to_areas;
-  const int cells = samples.grid * samples.grid;
-  std::vector<std::uint32_t> cell_firsts;
-  cell_firsts.reserve(static_cast<std::size_t>(cells));
-  for (int cell = 0; cell < cells; ++cell) {
-    cell_firsts.push_back(count *
-                          (samples.first + sample_in_cell(samples.grid, {cell % samples.grid, cell / samples.grid})));
-  }
+  for (std::uint32_t& point : points) point *= count;
   std::vector<std::uint32_t> steps(count);
   std::iota(steps.begin(), steps.end(), 0U);
-  set_digits("cell_directions", "cell_choices", cell_firsts);
+  set_digits("cell_directions", "cell_choices", points);
   set_digits("direction_steps", "choice_steps", steps);
   gl::api().ProgramUniform1i(program_.name(), program_.uniform("directions_per_sample"), static_cast<GLint>(count));
 }
@@ -389,8 +359,7 @@ void SurfaceProgram::set_digits(const char* directions, const char* choices,
   std::vector<glm::uvec4> pairs;
   std::vector<std::uint32_t> single;
   for (const std::uint32_t i : indices) {
-    const SampleDigits light = sample_digits(SamplePair::light, i), lobe = sample_digits(SamplePair::lobe, i);
-    pairs.emplace_back(light.x, light.y, lobe.x, lobe.y);
+    pairs.emplace_back(sample_digits(SamplePair::light, i), sample_digits(SamplePair::lobe, i));
     single.push_back(sample_digits(SamplePair::choice, i).x);
   }
   const GLuint name = program_.name();
@@ -415,7 +384,7 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
     constexpr int most_lights = 100;  // a factor for an environment as directional lights
     std::array<GLint, 4> viewport{};
     gl::api().GetIntegerv(GL_VIEWPORT, viewport.data());
-    const int factor = variant_.environment == EnvironmentUse::dense ? most_lights : 1;
+    const int factor = forward_.variant.environment == EnvironmentUse::dense ? most_lights : 1;
     watch = watch_over(method.baked(), "draw its first frame", factor * (1 + viewport[2] * viewport[3] / (1 << 20)));
   }
   draw_batches(scene, method, view, world_to_clip, samples);
@@ -425,21 +394,23 @@ void SurfaceProgram::draw(GpuScene& scene, const GpuMethod& method, const View& 
 
 void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, const View& view,
                                   const glm::mat4& world_to_clip, const SampleDraw& samples) const {
-  const bool environment_light = has(variant_.effects, Effect::environment_light);
-  if (variant_.sampling != Sampling::frame || is_stochastic(variant_.footprint)) set_samples(samples);
+  const ShaderVariant& variant = forward_.variant;
+  const TextureUnits& units = forward_.units;
+  const bool environment_light = has(variant.effects, Effect::environment_light);
+  if (variant.sampling != Sampling::frame || is_stochastic(variant.footprint)) set_samples(samples);
   gl::api().UseProgram(program_.name());
   gl::api().UniformMatrix4fv(program_.uniform("world_to_clip"), 1, GL_FALSE, glm::value_ptr(world_to_clip));
-  const glm::vec3 camera = variant_.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);
-  const char* const camera_name = variant_.orthographic ? "to_camera" : "camera_position";
+  const glm::vec3 camera = variant.orthographic ? direction_to_camera(view.camera) : camera_position(view.camera);
+  const char* const camera_name = variant.orthographic ? "to_camera" : "camera_position";
   gl::api().Uniform3fv(program_.uniform(camera_name), 1, glm::value_ptr(camera));
   const GLint to_camera_space = program_.uniform("world_to_camera");
   if (to_camera_space >= 0) {
     const glm::mat3 rotation = world_to_camera(view.camera);
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
-  scene.bind_lights(program_, units_, variant_.area_lobes);
-  if (variant_.area_lobes) scene.area_cosines().bind(units_.unit("area_cosines"));
-  if (environment_light && scene.visibility()) scene.visibility()->bind(units_.unit("visibility_maps"));
+  scene.bind_lights(program_, units, variant.area_lobes);
+  if (variant.area_lobes) scene.area_cosines().bind(units.unit("area_cosines"));
+  if (environment_light && scene.visibility()) scene.visibility()->bind(units.unit("visibility_maps"));
   const GLint texels_location = program_.uniform("drawn_texels");
   gl::api().Enable(GL_DEPTH_TEST);
   for (const GpuBatch& batch : scene.batches()) {
@@ -450,7 +421,7 @@ void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, cons
     GLuint unit = 0;
     for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, sampler_state_);
     method.bind(batch, scene, sampler_state_);
-    if (environment_light) scene.environment()->bind(units_, variant_.environment);
+    if (environment_light) scene.environment()->bind(units, variant.environment);
     gl::api().BindVertexArray(method.vertex_array(batch));
     gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
   }
@@ -459,8 +430,8 @@ void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, cons
 
 std::vector<BoundTexture> SurfaceProgram::bound_textures() const {
   std::vector<BoundTexture> bound;
-  for (GLuint unit = 0; unit < units_.size(); ++unit) {
-    const TextureUnits::Texture& texture = units_.textures()[unit];
+  for (GLuint unit = 0; unit < forward_.units.size(); ++unit) {
+    const TextureUnits::Texture& texture = forward_.units.textures()[unit];
     bound.push_back(bound_texture(texture.name, unit, texture.sampler != "sampler2D"));
   }
   return bound;

@@ -109,17 +109,6 @@ struct SampleDraw {
   TexelUse texels = TexelUse::drawn;
 };
 
-/// How a program samples.
-struct ProgramSettings {
-  Sampling sampling = Sampling::frame;
-  SamplerState sampler_state = SamplerState::trilinear;  ///< of samples; a frame's follows from its footprint
-  FootprintFilter footprint{};                           ///< of a frame
-  Counting counting = Counting::none;
-  std::optional<FixedTrips> fixed_trips{};  ///< of a program that is only compiled, for its cost
-  bool orthographic = false;
-  EnvironmentUse environment = EnvironmentUse::sampled;  ///< dense for all; sampled: of a module that draws directions
-};
-
 /// The texts of a forward pass, not compiled yet.
 struct ForwardProgram {
   ShaderVariant variant;
@@ -127,9 +116,11 @@ struct ForwardProgram {
   ForwardShaders shaders;
 };
 
-/// The forward pass of a method over a scene. Throws Error (machine): as TextureUnits::require_room.
-[[nodiscard]] ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked,
-                                             const ProgramSettings& settings);
+/// The forward pass of a method over a scene.
+/// wanted: sampling, footprint, counting, fixed trips, kind of camera, and environment (`sampled` only for modules that
+/// draw directions). The other members follow from scene and method.
+/// Throws Error (machine): as TextureUnits::require_room.
+[[nodiscard]] ForwardProgram forward_program(const GpuScene& scene, const BakedMethod& baked, ShaderVariant wanted);
 
 /// The longest that a method from a file may take to compile, and to draw its first 2^20 samples.
 inline constexpr std::chrono::seconds file_method_limit{60};
@@ -146,34 +137,32 @@ inline constexpr std::chrono::seconds file_method_limit{60};
 /// One compiled forward pass.
 class SurfaceProgram {
  public:
-  /// Prepares the scene's environment for this program. Throws Error (machine): the module does not compile (the log
-  /// names its lines); as TextureUnits.
-  SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings);
+  /// Prepares the scene's environment for this program.
+  /// wanted: as for forward_program.
+  /// Throws Error (machine): the module does not compile (the log names its lines); as TextureUnits.
+  SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ShaderVariant& wanted);
 
   /// Draws the scene into the bound framebuffer. The viewport is the tile's, times the sample grid.
   /// samples: ignored with Sampling::frame, unless its footprint is stochastic.
   void draw(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
             const SampleDraw& samples = {}) const;
 
-  [[nodiscard]] const std::string& fragment_text() const { return fragment_text_; }
+  [[nodiscard]] const std::string& fragment_text() const { return forward_.shaders.fragment.text(); }
   /// The textures that the last draw of this program bound, of the last material, in the order of their units. No other
   /// program may have drawn since.
   [[nodiscard]] std::vector<BoundTexture> bound_textures() const;
 
  private:
-  SurfaceProgram(GpuScene& scene, const BakedMethod& baked, const ProgramSettings& settings, ForwardProgram program);
   void draw_batches(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,
                     const SampleDraw& samples) const;
   void set_samples(const SampleDraw& samples) const;
-  void set_directions(const SampleDraw& samples) const;
+  void set_directions(std::vector<std::uint32_t> points) const;
   void set_digits(const char* directions, const char* choices, std::span<const std::uint32_t> indices) const;
   [[nodiscard]] glm::vec3 drawn_texels(const GpuMethod& method, const GpuBatch& batch, TexelUse texels) const;
 
-  ShaderVariant variant_;
+  ForwardProgram forward_;
   SamplerState sampler_state_;
   EffectSet scene_effects_;
-  TextureUnits units_;
-  std::string fragment_text_;
   gl::Program program_;
   mutable bool has_drawn_ = false;
 };

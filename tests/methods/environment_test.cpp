@@ -91,8 +91,7 @@ TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
     return lit_square(tilted_normals(), {.brdf = brdf, .roughness = 0.6F}, uneven_environment());
   };
   TestRenderer& renderer = shared_renderer("all lights", scene, {6, 6});
-  static const Image reference =
-      renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+  static const Image reference = renderer.reference(64, 1, Sampling::after_shading, 0, EnvironmentUse::dense).mean;
   const Image picture = renderer.frame(*GetParam(), {}, {}, 0, 1.0, EnvironmentUse::dense);
   if (std::ranges::none_of(picture.texels, [](float value) { return std::isfinite(value) && value != 1.0F; }))
     GTEST_SKIP() << "takes more rounds of loops than the software renderer has";
@@ -290,7 +289,7 @@ TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSame) {
   for (const float exponent : {8.0F, 60.0F}) {
     scene.materials[0].lobe_parameter = exponent;
     TestRenderer renderer(scene, {16, 16});
-    const Image dense = renderer.reference(1, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+    const Image dense = renderer.reference(1, 1, Sampling::after_shading, 0, EnvironmentUse::dense).mean;
     for (std::size_t c = 0; c < 3; ++c) {
       const double expected = 0.25 * blinn_phong_under(*scene.environment, exponent, c);
       EXPECT_NEAR(dense.at(8, 8)[c], expected, 0.01 * expected) << "exponent " << exponent << ", channel " << c;
@@ -305,7 +304,7 @@ TEST(ReferenceUnderAnEnvironment, DenseLightsComeToTheSamePicture) {
   TestRenderer renderer(
       lit_square(random_normals(8, 8, 0.4F, 5), {.brdf = {}, .roughness = 0.7F}, uneven_environment()), {8, 8});
   const Image drawn = renderer.reference(1024).mean;
-  const Image dense = renderer.reference(64, 1, ReferenceFilter::after_shading, 0, EnvironmentUse::dense).mean;
+  const Image dense = renderer.reference(64, 1, Sampling::after_shading, 0, EnvironmentUse::dense).mean;
   EXPECT_LT(compare_images(dense, drawn, 1.0F).value().relative_rmse, 0.02);
   EXPECT_LT(std::abs(covered_mean(dense) / covered_mean(drawn) - 1.0), 0.005);
 }
@@ -321,7 +320,7 @@ TEST(ReferenceUnderAnEnvironment, IsDeterministicAndNotOfTheTile) {
   TestRenderer renderer(lit_square(random_normals(16, 16, 0.4F, 5), {}, uneven_environment()), {24, 24});
   const Image whole = renderer.reference(16, 3).mean;
   EXPECT_EQ(whole, renderer.reference(16, 3).mean);
-  EXPECT_LT(largest_difference(whole, renderer.reference(16, 3, ReferenceFilter::after_shading, 16).mean), 1e-4);
+  EXPECT_LT(largest_difference(whole, renderer.reference(16, 3, Sampling::after_shading, 16).mean), 1e-4);
   EXPECT_GT(largest_difference(whole, renderer.reference(16, 4).mean), 1e-4);
 }
 

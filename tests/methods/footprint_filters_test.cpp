@@ -49,8 +49,7 @@ TEST_P(FootprintFilters, PartsConvergeToTheReference) {
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
   const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
   TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel", scene, {16, 16});
-  static const Image reference =
-      renderer.reference(1024, 1, ReferenceFilter::nearest).mean;  // the same for all methods
+  static const Image reference = renderer.reference(1024, 1, Sampling::nearest).mean;  // the same for all methods
   const double few = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:2")), reference);
   const double all = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:8")), reference);
   constexpr double noise = 0.005;  // of the reference

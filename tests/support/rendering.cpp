@@ -59,12 +59,10 @@ const FrameRenderer& TestRenderer::frames(const Method& method, const std::strin
   const Prepared::Key key{filter, tile, environment};
   auto found = std::ranges::find(drawn.frames, key, [](const auto& frames) { return frames.first; });
   if (found == drawn.frames.end()) {
-    const ProgramSettings settings{.sampling = Sampling::frame,
-                                   .footprint = filter,
-                                   .orthographic = scene_.camera.orthographic,
-                                   .environment = environment};
+    const ShaderVariant wanted{
+        .footprint = filter, .orthographic = scene_.camera.orthographic, .environment = environment};
     drawn.frames.emplace_back(
-        key, std::make_unique<FrameRenderer>(context_->info(), gpu_scene_, drawn.gpu, size_, settings, tile));
+        key, std::make_unique<FrameRenderer>(context_->info(), gpu_scene_, drawn.gpu, size_, wanted, tile));
     found = std::prev(drawn.frames.end());
   }
   return *found->second;
@@ -100,8 +98,8 @@ PixelWork TestRenderer::work(const Method& method, const std::string& text, cons
   return pixel_work(counting, {.size = size_, .camera = scene_.camera});
 }
 
-Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, ReferenceFilter filter,
-                                        int tile, EnvironmentUse environment, TexelUse texels) {
+Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint64_t seed, Sampling filter, int tile,
+                                        EnvironmentUse environment, TexelUse texels) {
   const Supersampler sampler(context_->info(), gpu_scene_, prepared(method, {}).gpu, filter, scene_.camera.orthographic,
                              tile, environment);
   Supersampled picture = sampler.render({.size = size_, .camera = scene_.camera}, spp, seed, no_progress, texels);
@@ -109,8 +107,8 @@ Supersampled TestRenderer::supersampled(const Method& method, int spp, std::uint
   return picture;
 }
 
-Supersampled TestRenderer::reference(int spp, std::uint64_t seed, ReferenceFilter filter, int tile,
-                                     EnvironmentUse environment, TexelUse texels) {
+Supersampled TestRenderer::reference(int spp, std::uint64_t seed, Sampling filter, int tile, EnvironmentUse environment,
+                                     TexelUse texels) {
   return supersampled(base_surface(), spp, seed, filter, tile, environment, texels);
 }
 

@@ -35,12 +35,11 @@ class TestRenderer {
   /// Texture lookups and lobe evaluations per pixel of that frame.
   [[nodiscard]] PixelWork work(const Method& method, const std::string& text, const FootprintFilter& filter);
   [[nodiscard]] Supersampled supersampled(const Method& method, int spp, std::uint64_t seed = 1,
-                                          ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
+                                          Sampling filter = Sampling::after_shading, int tile = 0,
                                           EnvironmentUse environment = EnvironmentUse::sampled,
                                           TexelUse texels = TexelUse::filtered);
-  [[nodiscard]] Supersampled reference(int spp, std::uint64_t seed = 1,
-                                       ReferenceFilter filter = ReferenceFilter::after_shading, int tile = 0,
-                                       EnvironmentUse environment = EnvironmentUse::sampled,
+  [[nodiscard]] Supersampled reference(int spp, std::uint64_t seed = 1, Sampling filter = Sampling::after_shading,
+                                       int tile = 0, EnvironmentUse environment = EnvironmentUse::sampled,
                                        TexelUse texels = TexelUse::filtered);
   [[nodiscard]] std::string fragment_text(const Method& method);
   /// Replaces the scene by another of the same parts (GpuScene::update).

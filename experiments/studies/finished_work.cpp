@@ -158,7 +158,7 @@ Json FinishedWork::read(const std::string& key) const {
   if (!document.is_object() || !document.contains("files") || !document.contains("value")) return {};
   if (!document.contains("key") || document["key"] != key) return {};
   for (const auto& [name, hash] : document["files"].items()) {
-    if (!is_within(name) || hash_of_file(run_folder(key) / name) != hash) return {};
+    if (!is_within(name) || Json(hash_of_file(run_folder(key) / name)) != hash) return {};
   }
   return document;
 }

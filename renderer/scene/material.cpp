@@ -123,13 +123,13 @@ class Counter {
 
   template <class T>
   requires(std::is_aggregate_v<T> && !is_plain<T>) void add(const T& value) {
-    std::apply([this](const auto&... members) { add_all(members...); }, members_of(value));
+    std::apply([this](const auto&... members) { this->add_all(members...); }, members_of(value));
   }
 
   template <class... T>
   void add(const std::variant<T...>& value) {
     add(value.index());
-    std::visit([this](const auto& content) { add(content); }, value);
+    std::visit([this](const auto& content) { this->add(content); }, value);
   }
 
   void add(const Image& image) {

@@ -59,7 +59,7 @@ vk::raii::Device device_of(const vk::raii::PhysicalDevice& physical) {
 vk::raii::DescriptorSetLayout all_bindings(const vk::raii::Device& device) {
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   const auto add = [&](std::uint32_t binding, vk::DescriptorType type) {
-    bindings.push_back({binding, type, 1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment});
+    bindings.emplace_back(binding, type, 1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment);
   };
   for (std::uint32_t i = 0; i < most_textures; ++i) add(i, vk::DescriptorType::eCombinedImageSampler);
   for (std::uint32_t i = 0; i < most_blocks; ++i)
@@ -162,7 +162,7 @@ std::string code_of(const CompilingDevice& on, const vk::PipelineExecutableInfoK
       *on.device, reinterpret_cast<const VkPipelineExecutableInfoKHR*>(&executable), &count,
       reinterpret_cast<VkPipelineExecutableInternalRepresentationKHR*>(all.data()));
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (std::string_view(all[i].name) == "ACO IR" && !texts[i].empty()) return texts[i].c_str();
+    if (std::string_view(all[i].name) == "ACO IR" && !texts[i].empty()) return texts[i].substr(0, texts[i].find('\0'));
   }
   throw vulkan_error(on.name, "does not report the code of its compiler ACO");
 }

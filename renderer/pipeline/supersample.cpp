@@ -21,7 +21,7 @@ constexpr GLint sum_count = sum_formats.size();
 void copy_tile(const Image& from, const Tile& tile, Image& to) {
   for (int y = 0; y < tile.size.y; ++y) {
     const int row = to.height - 1 - (tile.origin.y + y);
-    std::ranges::copy_n(from.at(tile.origin.x, row).begin(), tile.size.x * to.channels,
+    std::ranges::copy_n(from.at(tile.origin.x, row).begin(), std::ptrdiff_t{tile.size.x} * to.channels,
                         to.at(tile.origin.x, row).begin());
   }
 }
@@ -70,7 +70,7 @@ class SampleBlocks {
 
   // Reads a tile of the block of `pass` from the sums of resolve_samples.glsl.
   void add(const gl::RenderTarget& sums, const Tile& tile, const SamplePass& pass) {
-    Block& into = blocks_.at(static_cast<std::size_t>(2 * pass.half + pass.block));
+    Block& into = blocks_.at(std::size_t{2} * pass.half + pass.block);
     read_tile(sums, 0, tile, into.mean);
     read_tile(sums, 1, tile, into.covered);
   }

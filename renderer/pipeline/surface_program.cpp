@@ -328,8 +328,8 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) const {
   const auto set_pair = [&](const char* uniform, SamplePair pair) {
     const GLint location = program_.uniform(uniform);
     if (location < 0) return;
-    std::vector<glm::uvec2> digits;
-    for (const std::uint32_t point : points) digits.push_back(sample_digits(pair, point));
+    std::vector<glm::uvec2> digits(points.size());
+    std::ranges::transform(points, digits.begin(), [&](std::uint32_t point) { return sample_digits(pair, point); });
     gl::api().ProgramUniform2uiv(name, location, static_cast<GLsizei>(digits.size()), glm::value_ptr(digits.front()));
   };
   set_pair("sample_texels", SamplePair::texel);

@@ -86,9 +86,9 @@ class Buffer {
 
   Buffer() = default;
   /// bytes: copied; an empty span gives 16 zero bytes, because GL has no empty buffers.
-  /// content: `changing` can be written again.
+  /// use: `changing` can be written again.
   /// Throws Error (machine): out of memory.
-  explicit Buffer(std::span<const std::byte> bytes, Content content = Content::constant);
+  explicit Buffer(std::span<const std::byte> bytes, Content use = Content::constant);
   /// Replaces all content. Throws std::logic_error: the buffer is constant or of another size.
   void write(std::span<const std::byte> bytes) const;
   [[nodiscard]] GLuint name() const { return handle_.name(); }

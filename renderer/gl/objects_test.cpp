@@ -62,6 +62,9 @@ TEST_F(Objects, AHandleDeletesTheNameThatItOwns) {
   EXPECT_TRUE(api().IsVertexArray(name)) << "a handle that was moved from deleted it";
   owner = {};
   EXPECT_FALSE(api().IsVertexArray(name));
+  const VertexArray next = VertexArray::make();  // the driver gives the name again
+  owner = {};
+  EXPECT_TRUE(api().IsVertexArray(next.name())) << "a handle deleted its name twice";
 }
 
 TEST_F(Objects, AMovedFromBufferLeavesTheNameAlone) {

@@ -194,8 +194,7 @@ class Run {
       const std::vector<float> values = bench.densities(spec, directions);
       const std::size_t first = rows_.size();
       const auto add = [&](const char* figure, double value, double bound) {
-        rows_.push_back({spec.text, hard.name, hard.group, hard.description, figure, value, bound});
-        judge(rows_.back(), known_limits());
+        judged({spec.text, hard.name, hard.group, hard.description, figure, value, bound});
       };
       add("finite", bad_numbers(values), 0.0);
       if (!hard.narrow) add("energy", energy_error(directions, values), hard.energy);
@@ -218,9 +217,7 @@ class Run {
       progress(fmt::format("{}, {}", hard.name, spec.text), 0.0);
       const Image picture = drawing.draw(spec);
       const auto add = [&](const char* figure, double value, double bound) {
-        HardRow& row =
-            rows_.emplace_back(HardRow{spec.text, hard.name, hard.group, hard.description, figure, value, bound});
-        judge(row, known_limits());
+        HardRow& row = judged({spec.text, hard.name, hard.group, hard.description, figure, value, bound});
         if (row.verdict == Verdict::passed) return;
         row.picture = fmt::format("images/{}_{}.exr", hard.name, file_stem(spec.text));
         write_exr(folder_ / row.picture, picture);
@@ -266,9 +263,7 @@ class Run {
     }
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const auto add = [&](const char* figure, double value, double bound) {
-        HardRow& row =
-            rows_.emplace_back(HardRow{methods[m].text, sweep.name, "steps", sweep.description, figure, value, bound});
-        judge(row, known_limits());
+        judged({methods[m].text, sweep.name, "steps", sweep.description, figure, value, bound});
       };
       add("step", largest[m], std::max(sweep.most, 4.0 * true_step));
       if (sweep.energy) add("energy", most_lost[m], *sweep.energy);
@@ -289,9 +284,8 @@ class Run {
       double different = 0.0;
       for (std::size_t i = 0; i < baked[0].materials.size(); ++i)
         different += baked[0].materials[i] == baked[1].materials[i] ? 0.0 : 1.0;
-      HardRow& row = rows_.emplace_back(HardRow{spec.text, hard.name + "_threads", "threads",
-                                                "bakes by one thread and by two", "threads", different, 0.0});
-      judge(row, known_limits());
+      judged(
+          {spec.text, hard.name + "_threads", "threads", "bakes by one thread and by two", "threads", different, 0.0});
     }
   }
 
@@ -315,10 +309,8 @@ class Run {
       }
       double different = 0.0;
       for (std::size_t i = 0; i < values[0].size(); ++i) different += values[0][i] == values[1][i] ? 0.0 : 1.0;
-      HardRow& row = rows_.emplace_back(HardRow{spec.text, hard.name + "_backends", "backends",
-                                                "the same numbers by EGL and, by one thread, by OSMesa", "backends",
-                                                different, 0.0});
-      judge(row, known_limits());
+      judged({spec.text, hard.name + "_backends", "backends", "the same numbers by EGL and, by one thread, by OSMesa",
+              "backends", different, 0.0});
     }
     context_.make_current();
   }
@@ -326,6 +318,11 @@ class Run {
   [[nodiscard]] std::vector<HardRow> take_rows() { return std::move(rows_); }
 
  private:
+  HardRow& judged(HardRow row) {
+    judge(row, known_limits(), context_.info().software);
+    return rows_.emplace_back(std::move(row));
+  }
+
   // Every method, by default and with each other storage.
   [[nodiscard]] std::vector<MethodSpec> with_storages() const {
     std::vector<MethodSpec> out;

@@ -16,7 +16,7 @@ enum class Verdict {
   passed,        ///< within the case's own bound
   guarded,       ///< within a known limit that a guard causes
   out_of_range,  ///< within another known limit
-  failed,        ///< beyond both, or within the bound although a limit is listed
+  failed,        ///< beyond both; in software also within the bound although a limit is listed
 };
 
 /// One figure of one method in one case.
@@ -43,7 +43,8 @@ struct HardSettings {
 [[nodiscard]] std::vector<HardRow> run_hard_cases(const HardSettings& settings, const std::filesystem::path& folder,
                                                   const Progress& progress);
 
-/// Sets a row's verdict and reason. A value within its bound fails if `limits` list it, so that the list stays true.
-void judge(HardRow& row, std::span<const KnownLimit> limits);
+/// Sets a row's verdict and reason.
+/// whole: `limits` were measured on this renderer: a listed value within its bound fails, so that the list stays true.
+void judge(HardRow& row, std::span<const KnownLimit> limits, bool whole);
 
 }  // namespace footprint::hard_cases

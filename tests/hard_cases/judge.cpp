@@ -14,7 +14,7 @@ bool names(std::string_view limit, std::string_view method) {
 
 }  // namespace
 
-void judge(HardRow& row, std::span<const KnownLimit> limits) {
+void judge(HardRow& row, std::span<const KnownLimit> limits, bool whole) {
   const auto known = std::ranges::find_if(limits, [&](const KnownLimit& limit) {
     return names(limit.method, row.method) && limit.hard_case == row.hard_case && limit.figure == row.figure;
   });
@@ -27,11 +27,12 @@ void judge(HardRow& row, std::span<const KnownLimit> limits) {
     return;
   }
   row.why = known->why;
+  // A limit of the whole method need not apply to one storage.
+  if (passed && (!whole || known->method != row.method)) return;
   if (!passed && row.value <= known->most) {
     row.verdict = known->guarded ? Verdict::guarded : Verdict::out_of_range;
     return;
   }
-  if (passed && known->method != row.method) return;  // a limit of the whole method need not apply to one storage
   row.verdict = Verdict::failed;
   row.why = passed ? fmt::format("{:.3g} is within {:.3g}: remove it from the list of limits", row.value, row.bound)
                    : fmt::format("{:.3g} is over the {:.3g} of its known limit", row.value, known->most);

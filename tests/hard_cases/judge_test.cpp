@@ -22,9 +22,9 @@ constexpr KnownLimit limits[] = {
      .why = "clamp"},
     {.method = "", .hard_case = "groove", .figure = "twin", .most = 0.2, .why = "shared by all"}};
 
-HardRow judged(const std::string& method, double value, const std::string& figure = "energy") {
+HardRow judged(const std::string& method, double value, const std::string& figure = "energy", bool whole = true) {
   HardRow row{method, "groove", "bumps", "a groove", figure, value, 0.1};
-  judge(row, limits);
+  judge(row, limits, whole);
   return row;
 }
 
@@ -49,6 +49,9 @@ TEST(Judge, KnowsHowFarALimitReaches) {
 TEST(Judge, ALimitThatPassesUnexpectedlyFails) {
   EXPECT_EQ(judged("wide", 0.05).verdict, Verdict::failed);
   EXPECT_EQ(judged("wide:storage=fp16", 0.05).verdict, Verdict::passed) << "the method's own is still out of range";
+  EXPECT_EQ(judged("wide", 0.05, "energy", false).verdict, Verdict::passed) << "limits of another renderer";
+  EXPECT_EQ(judged("wide", 0.4, "energy", false).verdict, Verdict::out_of_range);
+  EXPECT_EQ(judged("wide", 0.6, "energy", false).verdict, Verdict::failed);
 }
 
 TEST(Judge, KnowsOfLimitsOfEveryMethod) {

@@ -89,11 +89,8 @@ struct Table {
 };
 
 Table table_of(const Patch& patch, std::span<const SphericalGaussian> lobes, Energy energy, std::size_t facets = 4096) {
-  std::vector<glm::dvec3> directions = direction_grid(6);
-  BinnedFacets binned = bin_facets(patch, sample_facets(patch, facets, 1));
-  FacetVisibility visibility = facet_visibility(patch, binned.samples, directions, no_progress);
   Table out;
-  out.bvndf = make_bvndf(std::move(binned), std::move(visibility), std::move(directions));
+  out.bvndf = make_bvndf(patch, bin_facets(patch, sample_facets(patch, facets, 1)), direction_grid(6), no_progress);
   const std::array<PaintFactors, 1> white{};
   out.sums = sum_bvndf(out.bvndf, lobes, Cosines::published, 1, white, no_progress);
   out.amplitudes = solve_amplitudes(out.bvndf, out.sums, lobes, energy);

@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 #include "methods/iwasaki_sg/lobe_fit.hpp"
 #include "renderer/lobes/lobe.hpp"
@@ -13,35 +15,20 @@
 namespace footprint::iwasaki_sg {
 namespace {
 
-struct Cell {
-  glm::dvec3 sum{0.0};
-  double weight = 0.0;
-};
-
-// Sums per cell of a cube, in the order of cells.
-class CubeSums {
- public:
-  explicit CubeSums(int side) : side_(side), cells_(std::size_t{6} * static_cast<std::size_t>(side * side)) {}
-
-  // Adds a normal to the cell of the direction of `mean`, which may have any length.
-  void add(const glm::dvec3& mean, double weight) {
-    Cell& cell = cells_[cube_cell(mean, side_)];
-    cell.sum += weight * mean;
+// The means of normals in the cells of a cube, in the order of cells. each(add) calls add(mean, weight) for normals,
+// which belong to the cell of their direction and may have any length.
+template <class Each>
+std::vector<WeightedNormal> means_over_cells(int side, const Each& each) {
+  std::vector<WeightedNormal> cells(std::size_t{6} * static_cast<std::size_t>(side * side));
+  each([&](const glm::dvec3& mean, double weight) {
+    WeightedNormal& cell = cells[cube_cell(mean, side)];
+    cell.normal += weight * mean;
     cell.weight += weight;
-  }
-
-  [[nodiscard]] std::vector<WeightedNormal> normals() const {
-    std::vector<WeightedNormal> out;
-    for (const Cell& cell : cells_) {
-      if (cell.weight > 0.0) out.push_back({cell.sum / cell.weight, cell.weight});
-    }
-    return out;
-  }
-
- private:
-  int side_;
-  std::vector<Cell> cells_;
-};
+  });
+  std::erase_if(cells, [](const WeightedNormal& cell) { return !(cell.weight > 0.0); });
+  for (WeightedNormal& cell : cells) cell.normal /= cell.weight;
+  return cells;
+}
 
 // Runs of bins that are summed separately and then added in order, so that sums do not depend on the number of threads.
 constexpr std::size_t runs = 8;
@@ -78,16 +65,60 @@ void common_bits(const std::uint64_t* rows, std::size_t words, std::size_t a, st
   }
 }
 
-// gamma of one normal over all pairs of the directions that see any of its facets. It is symmetric, so half is counted.
-class PairCounts {
+double cosine(const glm::dvec3& normal, const glm::dvec3& direction) {
+  return std::max(glm::dot(normal, direction), 0.0);
+}
+
+BvndfSums empty_sums(std::size_t directions, std::size_t lobes, std::size_t channels) {
+  const std::size_t pairs = directions * directions;
+  return {.directions = directions,
+          .lobes = lobes,
+          .channels = channels,
+          .products = std::vector<float>(channels * lobes * pairs),
+          .totals = std::vector<float>(channels * pairs),
+          .diffuse = std::vector<float>(channels * pairs)};
+}
+
+// Adds the pairs of directions that see facets of a bin.
+class Summer {
  public:
-  void count(const Bvndf& bvndf, const NormalBin& bin) {
+  Summer(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes, Cosines cosines,
+         std::span<const PaintFactors> paints)
+      : bvndf_(bvndf), lobes_(lobes), cosines_(cosines), paints_(paints), weighted_(bvndf.directions.size()) {}
+
+  void add_bin(const NormalBin& bin, BvndfSums& sums) {
+    count(bin);
+    const std::size_t n = active_.size();
+    if (n == 0) return;
+    reach_.clear();
+    for (std::size_t j = 0; j < lobes_.size(); ++j) {
+      const double product = convolution({bin.normal, sharpest}, lobes_[j]) / vmf_integral(sharpest);
+      if (product > negligible) reach_.emplace_back(j, static_cast<float>(product));
+    }
+    cosine_.clear();
+    for (const std::size_t d : active_) {
+      cosine_.push_back(static_cast<float>(cosine(bin.normal, bvndf_.directions[d])));
+    }
+    const auto area = static_cast<float>(bvndf_.facet_area);
+    for (std::size_t a = 0; a < n; ++a) {
+      std::ranges::fill(weighted_, 0.0F);
+      for (std::size_t b = 0; b < n; ++b) {
+        weighted_[active_[b]] = static_cast<float>(counts_[a * n + b]) * cosine_[b] * area;
+      }
+      add_row(bin, active_[a], cosine_[a], sums);
+    }
+  }
+
+ private:
+  // gamma of one normal over all pairs of the directions that see any of its facets. It is symmetric, so half is
+  // counted.
+  void count(const NormalBin& bin) {
     const std::size_t words = (bin.end - 1) / 64 - bin.begin / 64 + 1;
     active_.clear();
-    rows_.resize(bvndf.directions.size() * words);
-    for (std::size_t d = 0; d < bvndf.directions.size(); ++d) {
+    rows_.resize(bvndf_.directions.size() * words);
+    for (std::size_t d = 0; d < bvndf_.directions.size(); ++d) {
       std::uint64_t* const row = rows_.data() + active_.size() * words;
-      for (std::size_t w = 0; w < words; ++w) row[w] = bits_of(bvndf.visibility.of(d), bin, bin.begin / 64 + w);
+      for (std::size_t w = 0; w < words; ++w) row[w] = bits_of(bvndf_.visibility.of(d), bin, bin.begin / 64 + w);
       if (std::any_of(row, row + words, [](std::uint64_t word) { return word != 0; })) active_.push_back(d);
     }
     const std::size_t n = active_.size();
@@ -98,95 +129,19 @@ class PairCounts {
     }
   }
 
-  /// The directions that see the normal, in order.
-  [[nodiscard]] std::span<const std::size_t> active() const { return active_; }
-  /// The common counts of active direction `a` and each active direction.
-  [[nodiscard]] std::span<const std::uint32_t> row(std::size_t a) const {
-    return {counts_.data() + a * active_.size(), active_.size()};
-  }
-
- private:
-  std::vector<std::size_t> active_;
-  std::vector<std::uint64_t> rows_;
-  std::vector<std::uint32_t> counts_;
-};
-
-double cosine(const glm::dvec3& normal, const glm::dvec3& direction) {
-  return std::max(glm::dot(normal, direction), 0.0);
-}
-
-BvndfSums empty_sums(std::size_t directions, std::size_t lobes, std::size_t channels) {
-  const std::size_t pairs = directions * directions;
-  BvndfSums sums{
-      .directions = directions, .lobes = lobes, .channels = channels, .products = {}, .totals = {}, .diffuse = {}};
-  sums.products.resize(channels * lobes * pairs);
-  sums.totals.resize(channels * pairs);
-  sums.diffuse.resize(channels * pairs);
-  return sums;
-}
-
-void add(std::vector<float>& sum, const std::vector<float>& part) {
-  std::ranges::transform(sum, part, sum.begin(), [](float a, float b) { return a + b; });
-}
-
-// A lobe that reaches a normal: its index, and its integral over the lobe of the normal.
-struct Reach {
-  std::size_t lobe;
-  float product;
-};
-
-class Summer {
- public:
-  Summer(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes, Cosines cosines,
-         std::span<const PaintFactors> paints)
-      : bvndf_(bvndf), lobes_(lobes), cosines_(cosines), paints_(paints) {}
-
-  void add_bin(const NormalBin& bin, BvndfSums& sums) {
-    counts_.count(bvndf_, bin);
-    const auto active = counts_.active();
-    if (active.empty()) return;
-    reaches(bin);
-    cosine_.clear();
-    for (const std::size_t d : active) {
-      cosine_.push_back(static_cast<float>(cosine(bin.normal, bvndf_.directions[d])));
-    }
-    weighted_.resize(bvndf_.directions.size());
-    const auto area = static_cast<float>(bvndf_.facet_area);
-    for (std::size_t a = 0; a < active.size(); ++a) {
-      std::ranges::fill(weighted_, 0.0F);
-      const auto row = counts_.row(a);
-      for (std::size_t b = 0; b < active.size(); ++b) {
-        weighted_[active[b]] = static_cast<float>(row[b]) * cosine_[b] * area;
-      }
-      add_row(bin, active[a], cosine_[a], sums);
-    }
-  }
-
- private:
-  void reaches(const NormalBin& bin) {
-    reach_.clear();
-    const SphericalGaussian own{bin.normal, sharpest};
-    for (std::size_t j = 0; j < lobes_.size(); ++j) {
-      const double product = convolution(own, lobes_[j]) / vmf_integral(sharpest);
-      if (product > negligible) reach_.push_back({j, static_cast<float>(product)});
-    }
-  }
-
   // weighted_ stores gamma (n.wo) of all wo for direction `wi`.
   void add_row(const NormalBin& bin, std::size_t wi, float cosine_i, BvndfSums& sums) const {
     const std::size_t n = weighted_.size();
-    const float factor = cosines_ == Cosines::published ? cosine_i : 1.0F;
-    const auto add_to = [&](float* row, float scale) {
+    const auto add_to = [&](std::vector<float>& values, std::size_t block, float scale) {
+      float* const row = values.data() + (block * n + wi) * n;
       for (std::size_t o = 0; o < n; ++o) row[o] += scale * weighted_[o];
     };
     const PaintFactors& paint = paints_[bin.paint];
     for (std::size_t c = 0; c < sums.channels; ++c) {
-      const float specular = paint.specular[static_cast<int>(c)] * factor;
-      add_to(sums.diffuse.data() + (c * n + wi) * n, paint.diffuse[static_cast<int>(c)] * cosine_i);
-      add_to(sums.totals.data() + (c * n + wi) * n, specular);
-      for (const Reach& reach : reach_) {
-        add_to(sums.products.data() + ((c * lobes_.size() + reach.lobe) * n + wi) * n, specular * reach.product);
-      }
+      const float specular = paint.specular[static_cast<int>(c)] * (cosines_ == Cosines::published ? cosine_i : 1.0F);
+      add_to(sums.diffuse, c, paint.diffuse[static_cast<int>(c)] * cosine_i);
+      add_to(sums.totals, c, specular);
+      for (const auto& [lobe, product] : reach_) add_to(sums.products, c * lobes_.size() + lobe, specular * product);
     }
   }
 
@@ -194,8 +149,10 @@ class Summer {
   std::span<const SphericalGaussian> lobes_;
   Cosines cosines_;
   std::span<const PaintFactors> paints_;
-  PairCounts counts_;
-  std::vector<Reach> reach_;
+  std::vector<std::size_t> active_;  // the directions that see the bin, in order
+  std::vector<std::uint64_t> rows_;
+  std::vector<std::uint32_t> counts_;                 // of each pair of them
+  std::vector<std::pair<std::size_t, float>> reach_;  // lobes, and their integrals over the lobe of the normal
   std::vector<float> cosine_, weighted_;
 };
 
@@ -267,26 +224,25 @@ BinnedFacets bin_facets(const Patch& patch, const FacetSamples& samples) {
 }
 
 std::vector<WeightedNormal> bin_normal_map(const Image& normals) {
-  CubeSums sums(cube_side);
   double total = 0.0;
-  for (std::size_t i = 0; i + 3 < normals.texels.size(); i += 4) {
-    const glm::dvec3 n(normals.texels[i], normals.texels[i + 1], normals.texels[i + 2]);
-    const double weight = normals.texels[i + 3];
-    const double length = glm::length(n);
-    if (!(weight > 0.0 && length > 1e-3)) continue;
-    sums.add(n / length, weight);
-    total += weight;
-  }
-  std::vector<WeightedNormal> out = sums.normals();
+  std::vector<WeightedNormal> out = means_over_cells(cube_side, [&](const auto& add) {
+    for (std::size_t i = 0; i + 3 < normals.texels.size(); i += 4) {
+      const glm::dvec3 n(normals.texels[i], normals.texels[i + 1], normals.texels[i + 2]);
+      const double weight = normals.texels[i + 3], length = glm::length(n);
+      if (!(weight > 0.0 && length > 1e-3)) continue;
+      add(n / length, weight);
+      total += weight;
+    }
+  });
   for (WeightedNormal& normal : out) normal.weight /= total;
   return out;
 }
 
 std::vector<WeightedNormal> pool_normals(std::vector<WeightedNormal> normals, std::size_t most) {
   for (int side = cube_side / 2; normals.size() > most && side > 0; side /= 2) {
-    CubeSums sums(side);
-    for (const WeightedNormal& n : normals) sums.add(n.normal, n.weight);
-    normals = sums.normals();
+    normals = means_over_cells(side, [&](const auto& add) {
+      for (const WeightedNormal& n : normals) add(n.normal, n.weight);
+    });
   }
   return normals;
 }
@@ -297,18 +253,20 @@ double Bvndf::gamma(std::size_t bin, std::size_t wi, std::size_t wo) const {
 
 double Bvndf::total_area() const { return bins.empty() ? 0.0 : static_cast<double>(bins.back().end) * facet_area; }
 
-Bvndf make_bvndf(BinnedFacets facets, FacetVisibility visibility, std::vector<glm::dvec3> directions) {
+Bvndf make_bvndf(const Patch& patch, BinnedFacets facets, std::vector<glm::dvec3> directions,
+                 const Progress& progress) {
+  FacetVisibility visibility = facet_visibility(patch, facets.samples, directions, progress);
+  progress("BVNDF", 1.0);
   Bvndf out{.directions = std::move(directions),
             .bins = std::move(facets.bins),
             .visibility = std::move(visibility),
             .facet_area = facets.samples.facet_area,
             .visible_area = {}};
-  out.visible_area.resize(out.directions.size());
   for (std::size_t d = 0; d < out.directions.size(); ++d) {
     const auto seen = out.visibility.of(d);
     double sum = 0.0;
     for (const NormalBin& bin : out.bins) sum += common_count(seen, seen, bin) * cosine(bin.normal, out.directions[d]);
-    out.visible_area[d] = sum * out.facet_area;
+    out.visible_area.push_back(sum * out.facet_area);
   }
   return out;
 }
@@ -339,9 +297,8 @@ BvndfSums sum_bvndf(const Bvndf& bvndf, std::span<const SphericalGaussian> lobes
   });
   BvndfSums sums = std::move(parts.front());
   for (std::size_t run = 1; run < runs; ++run) {
-    add(sums.products, parts[run].products);
-    add(sums.totals, parts[run].totals);
-    add(sums.diffuse, parts[run].diffuse);
+    for (auto values : {&BvndfSums::products, &BvndfSums::totals, &BvndfSums::diffuse})
+      std::ranges::transform(sums.*values, parts[run].*values, (sums.*values).begin(), std::plus<>());
   }
   return sums;
 }

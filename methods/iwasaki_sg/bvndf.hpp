@@ -25,8 +25,8 @@ inline constexpr int cube_side = 128;
 
 /// A normal with the area of its facets.
 struct WeightedNormal {
-  glm::dvec3 normal;  ///< a mean of unit vectors, shorter than 1 if they differ
-  double weight;      ///< above 0
+  glm::dvec3 normal{0.0};  ///< a mean of unit vectors, shorter than 1 if they differ
+  double weight = 0.0;     ///< above 0
 };
 
 /// The samples of one discretised normal and one colour. The paper uses the centre of the cell as normal. This is the
@@ -67,7 +67,9 @@ struct Bvndf {
   [[nodiscard]] double total_area() const;
 };
 
-[[nodiscard]] Bvndf make_bvndf(BinnedFacets facets, FacetVisibility visibility, std::vector<glm::dvec3> directions);
+/// facets: of the patch. Reports the stages visibility and BVNDF as they begin.
+[[nodiscard]] Bvndf make_bvndf(const Patch& patch, BinnedFacets facets, std::vector<glm::dvec3> directions,
+                               const Progress& progress);
 
 /// The area of each discretised normal that is visible from any direction: Gamma (Eq. 6) without hidden area.
 [[nodiscard]] std::vector<WeightedNormal> visible_ndf(const Bvndf& bvndf);

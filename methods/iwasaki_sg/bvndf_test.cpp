@@ -18,10 +18,7 @@ namespace footprint::iwasaki_sg {
 namespace {
 
 Bvndf bvndf_of(const Patch& patch, std::size_t facets, int side) {
-  std::vector<glm::dvec3> directions = direction_grid(side);
-  BinnedFacets binned = bin_facets(patch, sample_facets(patch, facets, 1));
-  FacetVisibility visibility = facet_visibility(patch, binned.samples, directions, no_progress);
-  return make_bvndf(std::move(binned), std::move(visibility), std::move(directions));
+  return make_bvndf(patch, bin_facets(patch, sample_facets(patch, facets, 1)), direction_grid(side), no_progress);
 }
 
 // Points of an even grid on each triangle, each with its share of the area: another way of sampling than facets'.

@@ -60,10 +60,8 @@ struct Compared {
 Compared against_sum(const Patch& patch, float exponent, const std::map<std::string, std::string>& options) {
   constexpr std::size_t facets = 16384;
   const Material material = patch_material(patch, blinn_phong, exponent);
-  std::vector<glm::dvec3> directions = direction_grid(12);
-  BinnedFacets binned = bin_facets(patch, sample_facets(patch, facets, 1));
-  FacetVisibility visibility = facet_visibility(patch, binned.samples, directions, no_progress);
-  const Bvndf bvndf = make_bvndf(std::move(binned), std::move(visibility), std::move(directions));
+  const Bvndf bvndf =
+      make_bvndf(patch, bin_facets(patch, sample_facets(patch, facets, 1)), direction_grid(12), no_progress);
   std::vector<std::array<glm::vec4, 3>> inputs;
   std::vector<FacetSum> exact;
   for (std::size_t i = 0; i < bvndf.directions.size(); i += 7) {

@@ -190,23 +190,6 @@ void conserve(LobeVector& masses, double total) {
 
 constexpr double even_sharpness = 1e-2;  // of light from all sides alike
 
-// log of a Gaussian of integral 1 at a direction.
-double log_density(const SphericalGaussian& lobe, const glm::dvec3& direction) {
-  return -lobe.sharpness * one_minus_dot(lobe.axis, direction) - std::log(vmf_integral(lobe.sharpness));
-}
-
-// Adds the light of a direction to the Gaussians, by their shares there.
-void divide(const DenseLight& light, const std::vector<double>& shares, std::vector<LightGaussian>& gaussians) {
-  std::vector<double> weights;
-  for (std::size_t k = 0; k < gaussians.size(); ++k)
-    weights.push_back(std::log(shares[k]) + log_density(gaussians[k].lobe, glm::dvec3(light.direction)));
-  const double largest = *std::ranges::max_element(weights);
-  double sum = 0.0;
-  for (double& weight : weights) sum += weight = std::exp(weight - largest);
-  for (std::size_t k = 0; k < gaussians.size(); ++k)
-    gaussians[k].light += weights[k] / sum * glm::dvec3(light.irradiance);
-}
-
 }  // namespace
 
 double own_sharpness(double sharpness) { return 1.0 / std::max(1.0 / sharpness - 1.0 / sharpest, 1e-9); }
@@ -245,13 +228,9 @@ NdfFit fit_ndf(std::span<const WeightedNormal> normals, int count) {
 
 LobeMatrix correlations(std::span<const SphericalGaussian> lobes) {
   const auto n = static_cast<Eigen::Index>(lobes.size());
-  LobeMatrix a(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      a(i, j) = i == j ? 1.0 : correlation(lobes[static_cast<std::size_t>(i)], lobes[static_cast<std::size_t>(j)]);
-    }
-  }
-  return a;
+  return LobeMatrix::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
+    return i == j ? 1.0 : correlation(lobes[static_cast<std::size_t>(i)], lobes[static_cast<std::size_t>(j)]);
+  });
 }
 
 LobeVector solve_non_negative(const LobeMatrix& a, const LobeVector& b) {
@@ -323,10 +302,10 @@ glm::vec4 lobe_texel(const SphericalGaussian& lobe) {
   return {glm::vec3(lobe.axis), static_cast<float>(lobe.sharpness)};
 }
 
-PrefilteredTexture texel_rows(std::string name, std::size_t width, std::span<const glm::vec4> texels) {
+Image texel_rows(std::size_t width, std::span<const glm::vec4> texels) {
   Image image(static_cast<int>(width), static_cast<int>(texels.size() / width), 4);
   std::copy_n(&texels.front().x, image.texels.size(), image.texels.begin());
-  return make_texture(std::move(name), {std::move(image)}, Storage::fp32, {});
+  return image;
 }
 
 std::vector<LightGaussian> light_gaussians(const Environment& environment) {
@@ -340,7 +319,20 @@ std::vector<LightGaussian> light_gaussians(const Environment& environment) {
   const NdfFit fit = fit_ndf(directions, environment_gaussians);
   std::vector<LightGaussian> gaussians;
   for (const SphericalGaussian& lobe : fit.lobes) gaussians.push_back({.lobe = lobe});
-  for (const DenseLight& light : lights) divide(light, fit.shares, gaussians);
+  for (const DenseLight& light : lights) {
+    std::vector<double> weights;
+    for (std::size_t k = 0; k < gaussians.size(); ++k) {
+      const SphericalGaussian& lobe = gaussians[k].lobe;
+      weights.push_back(std::log(fit.shares[k]) -
+                        lobe.sharpness * one_minus_dot(lobe.axis, glm::dvec3(light.direction)) -
+                        std::log(vmf_integral(lobe.sharpness)));
+    }
+    const double largest = *std::ranges::max_element(weights);
+    double sum = 0.0;
+    for (double& weight : weights) sum += weight = std::exp(weight - largest);
+    for (std::size_t k = 0; k < gaussians.size(); ++k)
+      gaussians[k].light += weights[k] / sum * glm::dvec3(light.irradiance);
+  }
   return gaussians;
 }
 
@@ -350,7 +342,7 @@ PrefilteredTexture environment_texture(const Environment& environment) {
   std::vector<glm::vec4> texels;
   for (const LightGaussian& gaussian : gaussians) texels.push_back(lobe_texel(gaussian.lobe));
   for (const LightGaussian& gaussian : gaussians) texels.emplace_back(glm::vec3(gaussian.light), 0.0F);
-  return texel_rows("iwasaki_environment", gaussians.size(), texels);
+  return make_texture("iwasaki_environment", {texel_rows(gaussians.size(), texels)}, Storage::fp32, {});
 }
 
 }  // namespace footprint::iwasaki_sg

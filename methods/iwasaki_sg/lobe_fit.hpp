@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "methods/iwasaki_sg/bvndf.hpp"
@@ -59,6 +58,10 @@ struct Amplitudes {
   std::size_t directions = 0, channels = 1;
   std::vector<float> masses;   ///< [lobe][channel][wi][wo], all >= 0 unless of any sign
   std::vector<float> diffuse;  ///< [channel][wi][wo]: integral of gamma (n.wi)(n.wo) / a_v
+
+  [[nodiscard]] double mass(std::size_t lobe, std::size_t channel, std::size_t wi, std::size_t wo) const {
+    return masses[((lobe * channels + channel) * directions + wi) * directions + wo];
+  }
 };
 
 /// The constraints of the projection, which alone does not conserve the sum of the BVNDF.
@@ -86,9 +89,9 @@ struct LightGaussian {
 /// Empty: black.
 [[nodiscard]] std::vector<LightGaussian> light_gaussians(const Environment& environment);
 
-/// Axis and sharpness of a lobe as a texel, and a texture of rows of texels.
+/// Axis and sharpness of a lobe as a texel, and an image of rows of texels.
 [[nodiscard]] glm::vec4 lobe_texel(const SphericalGaussian& lobe);
-[[nodiscard]] PrefilteredTexture texel_rows(std::string name, std::size_t width, std::span<const glm::vec4> texels);
+[[nodiscard]] Image texel_rows(std::size_t width, std::span<const glm::vec4> texels);
 
 /// `iwasaki_environment`: a texel per Gaussian with axis and sharpness, and below it one with its light.
 [[nodiscard]] PrefilteredTexture environment_texture(const Environment& environment);

@@ -23,7 +23,6 @@ namespace {
 // grid.
 std::vector<double> shares_from_above(const Amplitudes& table, int side) {
   std::vector<double> shares(table.lobes.size());
-  const std::size_t n = table.directions, pairs = n * n;
   const auto row = static_cast<std::size_t>(side);
   const std::size_t low = (row - 1) / 2, high = row / 2;
   double total = 0.0;
@@ -31,7 +30,7 @@ std::vector<double> shares_from_above(const Amplitudes& table, int side) {
     for (const std::size_t x : {low, high}) {
       const std::size_t d = y * row + x;
       for (std::size_t j = 0; j < shares.size(); ++j) {
-        const double mass = table.masses[j * table.channels * pairs + d * n + d];
+        const double mass = table.mass(j, 0, d, d);
         shares[j] += mass;
         total += mass;
       }
@@ -46,7 +45,7 @@ PrefilteredTexture lobe_texture(std::span<const SphericalGaussian> lobes, std::s
   std::vector<glm::vec4> texels;
   for (const SphericalGaussian& lobe : lobes) texels.push_back(lobe_texel(lobe));
   for (const double share : shares) texels.emplace_back(static_cast<float>(share), 0.0F, 0.0F, 0.0F);
-  return texel_rows("iwasaki_lobes", lobes.size(), texels);
+  return make_texture("iwasaki_lobes", {texel_rows(lobes.size(), texels)}, Storage::fp32, {});
 }
 
 // Whether a table includes the facets' cosine to the light.
@@ -121,13 +120,9 @@ PrefilteredTexture diffuse_texture(const Amplitudes& table, int side) {
     shares.emplace_back(glm::vec3(sum / irradiance), 0.0F);
     normals.emplace_back(total > 0.0 ? glm::vec3(1.5 / total * mean) : glm::vec3(0.0F, 0.0F, 1.0F), 0.0F);
   }
-  const auto image = [side](const std::vector<glm::vec4>& texels) {
-    Image out(side, side, 4);
-    std::copy_n(&texels.front().x, out.texels.size(), out.texels.begin());
-    return out;
-  };
-  return make_array_texture("iwasaki_diffuse", {{image(shares)}, {image(normals)}}, Storage::fp32, {},
-                            TextureFilter::linear);
+  const auto row = static_cast<std::size_t>(side);
+  return make_array_texture("iwasaki_diffuse", {{texel_rows(row, shares)}, {texel_rows(row, normals)}}, Storage::fp32,
+                            {}, TextureFilter::linear);
 }
 
 PrefilteredTexture brdf_texture(const Material& material) {
@@ -149,20 +144,20 @@ std::array<PrefilteredTexture, 2> table_textures(const Material& material) {
   std::vector<glm::vec4> lobes, rise;
   for (const ColorLobe& lobe : fitted.lobes) lobes.emplace_back(static_cast<float>(lobe.sharpness), lobe.amplitude);
   for (const glm::vec3& factor : fitted.rise) rise.emplace_back(factor, 0.0F);
-  return {texel_rows("iwasaki_table", lobes.size(), lobes), texel_rows("iwasaki_rise", rise.size(), rise)};
+  return {make_texture("iwasaki_table", {texel_rows(lobes.size(), lobes)}, Storage::fp32, {}),
+          make_texture("iwasaki_rise", {texel_rows(rise.size(), rise)}, Storage::fp32, {})};
 }
 
-std::vector<std::string> notes_of(const Material& material, const MaterialTable& table) {
+std::string note_of(const Material& material, const MaterialTable& table) {
   const std::size_t lobes = table.amplitudes.lobes.size();
+  const std::string fitted =
+      fmt::format("{} lobe{} for {} discretised normals; ", lobes, lobes == 1 ? "" : "s", table.normals);
   if (!material.microgeometry) {
-    return {
-        fmt::format("the normal map as a whole replaces the small-scale geometry, all of it seen: {} lobe{} "
-                    "for {} discretised normals; its structure does not show at any distance",
-                    lobes, lobes == 1 ? "" : "s", table.normals)};
+    return "the normal map as a whole replaces the small-scale geometry, all of it seen: " + fitted +
+           "its structure does not show at any distance";
   }
-  return {fmt::format("patch {}: {} lobe{} for {} discretised normals; {:.1f}% of its area is ever seen",
-                      material.microgeometry->patch.name, lobes, lobes == 1 ? "" : "s", table.normals,
-                      100.0 * table.visible_share)};
+  return fmt::format("patch {}: {}{:.1f}% of its area is ever seen", material.microgeometry->patch.name, fitted,
+                     100.0 * table.visible_share);
 }
 
 }  // namespace
@@ -218,11 +213,8 @@ TableSettings table_settings(const Material& material, const Options& options, c
 Bvndf patch_bvndf(const Patch& patch, const TableSettings& settings, const Progress& progress) {
   ProgressParts parts(progress, 10.0);  // weights: about the share of the time
   parts.next(1.0, "")("samples", 0.0);
-  std::vector<glm::dvec3> directions = direction_grid(settings.side);
   BinnedFacets facets = bin_facets(patch, sample_facets(patch, settings.facets, settings.seed));
-  FacetVisibility visibility = facet_visibility(patch, facets.samples, directions, parts.next(8.0, ""));
-  parts.next(1.0, "")("BVNDF", 0.0);
-  return make_bvndf(std::move(facets), std::move(visibility), std::move(directions));
+  return make_bvndf(patch, std::move(facets), direction_grid(settings.side), parts.next(9.0, ""));
 }
 
 MaterialTable patch_table(const Patch& patch, const TableSettings& settings, const Progress& progress) {
@@ -304,7 +296,7 @@ Prefiltered baked_material(const Material& material, const Options& options, con
         out.textures.push_back(diffuse_texture(table.amplitudes, settings.side));
       }
     }
-    out.notes = notes_of(material, table);
+    out.notes = {note_of(material, table)};
   }
   add_brdf_textures(material, options, effects, out);
   return out;

@@ -5,9 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -43,11 +43,6 @@ BinnedFacets by_triangles(const Patch& patch, FacetSamples samples) {
   }
   out.samples = std::move(samples);
   return out;
-}
-
-Bvndf bvndf_of(const Patch& patch, BinnedFacets facets, std::vector<glm::dvec3> directions, const Progress& progress) {
-  FacetVisibility visibility = facet_visibility(patch, facets.samples, directions, progress);
-  return make_bvndf(std::move(facets), std::move(visibility), std::move(directions));
 }
 
 // Uniform over the directions above `least_height`.
@@ -112,21 +107,14 @@ glm::dvec3 convolved(const FacetReflection& reflection, const SphericalGaussian&
   return glm::dvec3(sum / vmf_integral(lobe.sharpness));
 }
 
-// The mass of a lobe, interpolated as the shader does. scales: of the cells to the light, 1 over their cosine where the
-// table includes it.
-glm::dvec3 mass_between(const Amplitudes& table, std::size_t lobe, const GridCells& in,
-                        const std::array<double, 4>& scales, const GridCells& out) {
-  const std::size_t pairs = table.directions * table.directions;
+// `value` of pairs of cells, interpolated as the shader does.
+template <class Value>
+glm::dvec3 between(const glm::dvec3& wi, const glm::dvec3& wo, int side, const Value& value) {
+  const GridCells in = cells_around(wi, side), out = cells_around(wo, side);
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t o = 0; o < 4; ++o) {
-      const double weight = in.weights.at(i) * out.weights.at(o) * scales.at(i);
-      const std::size_t pair = in.cells.at(i) * table.directions + out.cells.at(o);
-      for (int c = 0; c < 3; ++c) {
-        const std::size_t channel = table.channels == 1 ? 0 : static_cast<std::size_t>(c);
-        sum[c] += weight * table.masses[(lobe * table.channels + channel) * pairs + pair];
-      }
-    }
+    for (std::size_t o = 0; o < 4; ++o)
+      sum += in.weights.at(i) * out.weights.at(o) * value(in.cells.at(i), out.cells.at(o));
   }
   return sum;
 }
@@ -160,38 +148,36 @@ std::size_t LowRankLobe::byte_count(const LowRank& sizes) {
 
 FacetSum::FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
                    std::vector<glm::dvec3> directions, const Progress& progress)
-    : bvndf_(bvndf_of(material.microgeometry->patch, std::move(facets), std::move(directions), progress)),
+    : bvndf_(make_bvndf(material.microgeometry->patch, std::move(facets), std::move(directions), progress)),
       lobe_{lobe_of(material)},
       support_(lobe_support(lobe_)),
       table_(material.microgeometry->brdf.get()),
-      cosines_(settings.cosines),
-      channels_(settings.channels),
-      paints_(settings.paints) {}
-
-double FacetSum::base_density(const glm::dvec3& normal, const glm::dvec3& h) const {
-  const double u = one_minus_dot(normal, h);
-  return u < support_ ? lobe_density(lobe_, u) : 0.0;
-}
+      settings_(settings) {}
 
 glm::dvec3 FacetSum::operator()(std::size_t wi, std::size_t wo) const {
   const glm::dvec3 to_light = bvndf_.directions[wi], to_viewer = bvndf_.directions[wo];
   const double area = bvndf_.visible_area[wo];
-  if (area < least_area * bvndf_.total_area()) return glm::dvec3(0.0);
+  glm::dvec3 sum(0.0);
+  if (area < least_area * bvndf_.total_area()) return sum;
   const glm::dvec3 h = glm::normalize(to_light + to_viewer);
   const Eigen::VectorXd row = compressed_ ? compressed_->row(h) : Eigen::VectorXd();
-  glm::dvec3 sum(0.0);
+  const auto density_at = [&](const glm::dvec3& n) {
+    if (table_ != nullptr) return 1.0;
+    if (compressed_) return compressed_->density(row, n);
+    const double u = one_minus_dot(n, h);
+    return u < support_ ? lobe_density(lobe_, u) : 0.0;
+  };
   for (std::size_t i = 0; i < bvndf_.bins.size(); ++i) {
     const glm::dvec3& n = bvndf_.bins[i].normal;
     const double cosine_i = glm::dot(n, to_light), cosine_o = glm::dot(n, to_viewer);
     if (cosine_i <= 0.0 || cosine_o <= 0.0) continue;
-    const double density = table_ != nullptr ? 1.0 : compressed_ ? compressed_->density(row, n) : base_density(n, h);
+    const double density = density_at(n);
     if (density == 0.0) continue;
-    const double seen = bvndf_.gamma(i, wi, wo) * cosine_o * (cosines_ == Cosines::published ? cosine_i : 1.0);
+    const double seen = bvndf_.gamma(i, wi, wo) * cosine_o * (settings_.cosines == Cosines::published ? cosine_i : 1.0);
     if (seen == 0.0) continue;
-    const glm::dvec3 paint(channels_ == 1 ? glm::vec3(paints_[bvndf_.bins[i].paint].specular.r)
-                                          : paints_[bvndf_.bins[i].paint].specular);
+    const glm::vec3& paint = settings_.paints[bvndf_.bins[i].paint].specular;
     const glm::dvec3 own = table_ != nullptr ? glm::dvec3(table_->at(n, to_light, to_viewer)) : glm::dvec3(density);
-    sum += seen * paint * own;
+    sum += seen * glm::dvec3(settings_.channels == 1 ? glm::vec3(paint.r) : paint) * own;
   }
   return sum / area;
 }
@@ -210,13 +196,8 @@ BrdfFunction dense_table(const Material& material, const TableSettings& settings
     for (std::size_t wo = 0; wo < n; ++wo) values[wi * n + wo] = glm::vec3(scale * sum(wi, wo));
   });
   return [side, n, with_cosine, values = std::move(values)](const glm::dvec3& wi, const glm::dvec3& wo) {
-    const GridCells in = cells_around(wi, side), out = cells_around(wo, side);
-    glm::dvec3 mean(0.0);
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t o = 0; o < 4; ++o)
-        mean += in.weights.at(i) * out.weights.at(o) * glm::dvec3(values[in.cells.at(i) * n + out.cells.at(o)]);
-    }
-    return with_cosine ? mean * wi.z : mean;
+    const auto value = [&](std::size_t i, std::size_t o) { return glm::dvec3(values[i * n + o]); };
+    return between(wi, wo, side, value) * (with_cosine ? wi.z : 1.0);
   };
 }
 
@@ -239,12 +220,8 @@ double relative_error(const Material& material, const TableSettings& settings, c
       all[i] += glm::dot(sum, sum);
     }
   });
-  double difference = 0.0, whole = 0.0;
-  for (std::size_t i = 0; i < random_count; ++i) {
-    difference += away[i];
-    whole += all[i];
-  }
-  return whole > 0.0 ? std::sqrt(difference / whole) : 0.0;
+  const double whole = std::accumulate(all.begin(), all.end(), 0.0);
+  return whole > 0.0 ? std::sqrt(std::accumulate(away.begin(), away.end(), 0.0) / whole) : 0.0;
 }
 
 FacetReflection facet_reflection(const Material& material, const Options& options) {
@@ -259,16 +236,17 @@ BrdfFunction effective_brdf(const MaterialTable& table, const TableSettings& set
   const bool with_cosine = settings.cosines == Cosines::published;
   return [&table = table.amplitudes, side = settings.side, directions = direction_grid(settings.side), with_cosine,
           reflection = std::move(reflection), approximate](const glm::dvec3& wi, const glm::dvec3& wo) {
-    const glm::dvec3 sum_of_directions = wi + wo;
-    const double length = glm::length(sum_of_directions);
+    const double length = glm::length(wi + wo);
     glm::dvec3 sum(0.0);
     if (length < 1e-4) return sum;
-    const GridCells in = cells_around(wi, side), out = cells_around(wo, side);
-    std::array<double, 4> scales{};
-    for (std::size_t i = 0; i < 4; ++i) scales.at(i) = with_cosine ? 1.0 / directions[in.cells.at(i)].z : 1.0;
     for (std::size_t j = 0; j < table.lobes.size(); ++j) {
-      sum += mass_between(table, j, in, scales, out) *
-             convolved(reflection, table.lobes[j], sum_of_directions / length, wi, approximate);
+      // The mass; a table that includes the cosine to the light stores it over that of the surface.
+      const auto mass = [&](std::size_t i, std::size_t o) {
+        glm::dvec3 own;
+        for (std::size_t c = 0; c < 3; ++c) own[static_cast<int>(c)] = table.mass(j, table.channels == 1 ? 0 : c, i, o);
+        return own / (with_cosine ? directions[i].z : 1.0);
+      };
+      sum += between(wi, wo, side, mass) * convolved(reflection, table.lobes[j], (wi + wo) / length, wi, approximate);
     }
     return with_cosine ? sum * wi.z : sum;
   };

@@ -1,5 +1,5 @@
 // Compares convolutions over angles, and lobes with the BVNDF over every cell and pair of directions.
-#include "methods/iwasaki_sg/study/fit_error.hpp"
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -92,139 +92,27 @@ struct Sums {
   }
 };
 
-// gamma~ of a bin for a pair of directions.
-double seen(const Bvndf& bvndf, Cosines cosines, std::size_t bin, std::size_t wi, std::size_t wo) {
-  const auto cosine = [&](std::size_t d) {
-    return std::max(glm::dot(bvndf.bins[bin].normal, bvndf.directions[d]), 0.0);
-  };
-  const double value = bvndf.gamma(bin, wi, wo) * cosine(wo) / bvndf.visible_area[wo];
-  return cosines == Cosines::published ? value * cosine(wi) : value;
-}
-
-// The mass of a lobe for a pair of directions.
-double mass_of(const Amplitudes& table, std::size_t lobe, std::size_t wi, std::size_t wo) {
-  return double{table.masses[(lobe * table.directions + wi) * table.directions + wo]};
-}
-
-// The contribution of one pair of directions. A facet's normal is as wide as the sharpest lobe, so that a lobe for a
-// single normal fits it exactly. The difference is summed directly over cells with facets. Over the other cells only
-// lobes contribute, by their products.
-class PairSums {
- public:
-  PairSums(const Bvndf& bvndf, const Amplitudes& table, Cosines cosines)
-      : bvndf_(bvndf), table_(table), cosines_(cosines) {
-    const std::vector<glm::dvec3> middles = cell_middles();
-    for (const SphericalGaussian& lobe : table.lobes) {
-      std::vector<double>& own = shares_.emplace_back(middles.size());
-      for (const auto& [cell, share] : spread_of(lobe, middles)) own[cell] = share;
-    }
-    for (std::size_t i = 0; i < bvndf.bins.size(); ++i) {
-      for (const auto& [cell, share] : spread_of({bvndf.bins[i].normal, sharpest}, middles))
-        bins_in_[cell].emplace_back(i, share);
-    }
-    const std::size_t n = shares_.size();
-    elsewhere_.resize(n * n);
-    for (std::size_t cell = 0; cell < middles.size(); ++cell) {
-      if (bins_in_.contains(static_cast<std::uint32_t>(cell))) continue;
-      for (std::size_t a = 0; a < n; ++a) {
-        for (std::size_t b = 0; b < n; ++b) elsewhere_[a * n + b] += shares_[a][cell] * shares_[b][cell];
-      }
-    }
-  }
-
-  [[nodiscard]] Sums of(std::size_t wi, std::size_t wo) const {
-    Sums sums;
-    if (bvndf_.visible_area[wo] <= 0.0) return sums;
-    const std::size_t n = shares_.size();
-    const auto mass = [&](std::size_t j) { return mass_of(table_, j, wi, wo); };
-    for (const auto& [cell, bins] : bins_in_) {
-      double exact = 0.0;
-      for (const auto& [bin, share] : bins) exact += share * seen(bvndf_, cosines_, bin, wi, wo);
-      double difference = exact;
-      for (std::size_t j = 0; j < n; ++j) difference -= mass(j) * shares_[j][cell];
-      sums.squares += exact * exact;
-      sums.differences += difference * difference;
-    }
-    sums.occupied = sums.differences;
-    sums.cells = static_cast<double>(bins_in_.size());
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) sums.differences += mass(a) * mass(b) * elsewhere_[a * n + b];
-    }
-    return sums;
-  }
-
- private:
-  const Bvndf& bvndf_;
-  const Amplitudes& table_;
-  Cosines cosines_;
-  std::vector<std::vector<double>> shares_;
-  std::map<std::uint32_t, std::vector<std::pair<std::size_t, double>>> bins_in_;  // of each cell with facets
-  std::vector<double> elsewhere_;
-};
-
-// Distances between gamma~ and its lobes after a convolution of both, per direction wi. All lobes have unit energy, so
-// that integrals of products are those of unit amplitudes over both integrals.
-class ConvolvedSums {
- public:
-  ConvolvedSums(const Bvndf& bvndf, const Amplitudes& table, Cosines cosines, double sharpness)
-      : bvndf_(bvndf), table_(table), cosines_(cosines) {
-    const auto convolved = [&](const SphericalGaussian& lobe) {
-      return SphericalGaussian{lobe.axis, lobe.sharpness * sharpness / (lobe.sharpness + sharpness)};
-    };
-    std::vector<SphericalGaussian> facets, lobes;
-    for (const auto& bin : bvndf.bins) facets.push_back(convolved({bin.normal, sharpest}));
-    for (const SphericalGaussian& lobe : table.lobes) lobes.push_back(convolved(lobe));
-    facets_ = products(facets, facets);
-    mixed_ = products(facets, lobes);
-    lobes_ = products(lobes, lobes);
-  }
-
-  [[nodiscard]] Sums of(std::size_t wi) const {
-    const auto n = static_cast<Eigen::Index>(bvndf_.directions.size());
-    Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(facets_.rows(), n), fitted = Eigen::MatrixXd::Zero(lobes_.rows(), n);
-    for (Eigen::Index wo = 0; wo < n; ++wo) {
-      const auto to = static_cast<std::size_t>(wo);
-      if (bvndf_.visible_area[to] <= 0.0) continue;
-      for (Eigen::Index i = 0; i < exact.rows(); ++i)
-        exact(i, wo) = seen(bvndf_, cosines_, static_cast<std::size_t>(i), wi, to);
-      for (Eigen::Index j = 0; j < fitted.rows(); ++j)
-        fitted(j, wo) = mass_of(table_, static_cast<std::size_t>(j), wi, to);
-    }
-    const double squares = exact.cwiseProduct(facets_ * exact).sum();
-    return {.squares = squares,
-            .differences =
-                squares - 2.0 * exact.cwiseProduct(mixed_ * fitted).sum() + fitted.cwiseProduct(lobes_ * fitted).sum()};
-  }
-
- private:
-  static Eigen::MatrixXd products(const std::vector<SphericalGaussian>& a, const std::vector<SphericalGaussian>& b) {
-    Eigen::MatrixXd all(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
-    for (Eigen::Index i = 0; i < all.rows(); ++i) {
-      for (Eigen::Index j = 0; j < all.cols(); ++j) {
-        const SphericalGaussian &one = a[static_cast<std::size_t>(i)], &other = b[static_cast<std::size_t>(j)];
-        all(i, j) = convolution(one, other) / (vmf_integral(one.sharpness) * vmf_integral(other.sharpness));
-      }
-    }
-    return all;
-  }
-
-  const Bvndf& bvndf_;
-  const Amplitudes& table_;
-  Cosines cosines_;
-  Eigen::MatrixXd facets_, mixed_, lobes_;
-};
-
 // What fits are measured on: the patch as of one colour.
 struct Fitted {
   Bvndf bvndf;
-  MaterialTable table;
+  Amplitudes table;
+  Cosines cosines;
 
-  Fitted(Patch patch, TableSettings settings) {
+  Fitted(Patch patch, TableSettings settings) : cosines(settings.cosines) {
     settings.channels = 1;
     settings.paints.assign(1, {});
     patch.paints.clear();
     bvndf = patch_bvndf(patch, settings, no_progress);
-    table = patch_table(patch, settings, no_progress);
+    table = patch_table(patch, settings, no_progress).amplitudes;
+  }
+
+  // gamma~ of a bin for a pair of directions.
+  [[nodiscard]] double seen(std::size_t bin, std::size_t wi, std::size_t wo) const {
+    const auto cosine = [&](std::size_t d) {
+      return std::max(glm::dot(bvndf.bins[bin].normal, bvndf.directions[d]), 0.0);
+    };
+    const double value = bvndf.gamma(bin, wi, wo) * cosine(wo) / bvndf.visible_area[wo];
+    return cosines == Cosines::published ? value * cosine(wi) : value;
   }
 
   // The sum of `sums_of(wi)` over all directions.
@@ -237,6 +125,63 @@ struct Fitted {
     return sum;
   }
 };
+
+// Lobes and facets over the cells of the cube. A facet's normal is as wide as the sharpest lobe, so that a lobe for a
+// single normal fits it exactly.
+struct CellShares {
+  std::vector<std::vector<double>> lobes;                                     // by cell
+  std::map<std::uint32_t, std::vector<std::pair<std::size_t, double>>> bins;  // of each cell with facets
+  std::vector<double> elsewhere;  // the products of lobes, summed over the other cells
+
+  explicit CellShares(const Fitted& fitted) {
+    const std::vector<glm::dvec3> middles = cell_middles();
+    for (const SphericalGaussian& lobe : fitted.table.lobes) {
+      std::vector<double>& own = lobes.emplace_back(middles.size());
+      for (const auto& [cell, share] : spread_of(lobe, middles)) own[cell] = share;
+    }
+    for (std::size_t i = 0; i < fitted.bvndf.bins.size(); ++i) {
+      for (const auto& [cell, share] : spread_of({fitted.bvndf.bins[i].normal, sharpest}, middles))
+        bins[cell].emplace_back(i, share);
+    }
+    const std::size_t n = lobes.size();
+    elsewhere.resize(n * n);
+    for (std::size_t cell = 0; cell < middles.size(); ++cell) {
+      if (bins.contains(static_cast<std::uint32_t>(cell))) continue;
+      for (std::size_t i = 0; i < n * n; ++i) elsewhere[i] += lobes[i / n][cell] * lobes[i % n][cell];
+    }
+  }
+};
+
+// The contribution of one pair of directions. The difference is summed directly over cells with facets. Over the other
+// cells only lobes contribute, by their products.
+Sums pair_sums(const Fitted& fitted, const CellShares& shares, std::size_t wi, std::size_t wo) {
+  Sums sums;
+  if (fitted.bvndf.visible_area[wo] <= 0.0) return sums;
+  const std::size_t n = shares.lobes.size();
+  const auto mass = [&](std::size_t j) { return fitted.table.mass(j, 0, wi, wo); };
+  for (const auto& [cell, bins] : shares.bins) {
+    double exact = 0.0;
+    for (const auto& [bin, share] : bins) exact += share * fitted.seen(bin, wi, wo);
+    double difference = exact;
+    for (std::size_t j = 0; j < n; ++j) difference -= mass(j) * shares.lobes[j][cell];
+    sums.squares += exact * exact;
+    sums.differences += difference * difference;
+  }
+  sums.occupied = sums.differences;
+  sums.cells = static_cast<double>(shares.bins.size());
+  for (std::size_t i = 0; i < n * n; ++i) sums.differences += mass(i / n) * mass(i % n) * shares.elsewhere[i];
+  return sums;
+}
+
+// The integrals of products of lobes of unit energy: those of unit amplitudes over both integrals.
+Eigen::MatrixXd products(const std::vector<SphericalGaussian>& a, const std::vector<SphericalGaussian>& b) {
+  const auto product = [&](Eigen::Index i, Eigen::Index j) {
+    const SphericalGaussian &one = a[static_cast<std::size_t>(i)], &other = b[static_cast<std::size_t>(j)];
+    return convolution(one, other) / (vmf_integral(one.sharpness) * vmf_integral(other.sharpness));
+  };
+  return Eigen::MatrixXd::NullaryExpr(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()),
+                                      product);
+}
 
 // The largest difference of an approximation from Eq. 11 over the angle between the axes.
 double largest_difference(
@@ -288,11 +233,11 @@ double jakob_convolution_error(double sharpness1, double sharpness2) {
 
 FitErrors fit_errors(const Patch& patch, const TableSettings& settings) {
   const Fitted fitted(patch, settings);
-  const PairSums pair_sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines);
+  const CellShares shares(fitted);
   const std::size_t n = fitted.bvndf.directions.size();
   const Sums sum = fitted.total([&](std::size_t wi) {
     Sums row;
-    for (std::size_t wo = 0; wo < n; ++wo) row += pair_sums.of(wi, wo);
+    for (std::size_t wo = 0; wo < n; ++wo) row += pair_sums(fitted, shares, wi, wo);
     return row;
   });
   return {.rms = std::sqrt(sum.differences / (6.0 * cube_side * cube_side * static_cast<double>(n * n))),
@@ -302,8 +247,29 @@ FitErrors fit_errors(const Patch& patch, const TableSettings& settings) {
 
 double convolved_fit_rms(const Patch& patch, const TableSettings& settings, double sharpness) {
   const Fitted fitted(patch, settings);
-  const ConvolvedSums sums(fitted.bvndf, fitted.table.amplitudes, settings.cosines, sharpness);
-  const Sums sum = fitted.total([&](std::size_t wi) { return sums.of(wi); });
+  std::vector<SphericalGaussian> facets, lobes = fitted.table.lobes;
+  for (const NormalBin& bin : fitted.bvndf.bins) facets.push_back({bin.normal, sharpest});
+  for (auto* const both : {&facets, &lobes})
+    for (SphericalGaussian& lobe : *both) lobe.sharpness *= sharpness / (lobe.sharpness + sharpness);
+  const Eigen::MatrixXd of_facets = products(facets, facets), mixed = products(facets, lobes),
+                        of_lobes = products(lobes, lobes);
+  const auto n = static_cast<Eigen::Index>(fitted.bvndf.directions.size());
+  const Sums sum = fitted.total([&](std::size_t wi) {
+    const auto values = [&](Eigen::Index rows, const auto& value) {
+      return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, n, [&](Eigen::Index row, Eigen::Index wo) {
+        const auto to = static_cast<std::size_t>(wo);
+        return fitted.bvndf.visible_area[to] > 0.0 ? value(static_cast<std::size_t>(row), to) : 0.0;
+      }));
+    };
+    const Eigen::MatrixXd exact =
+        values(of_facets.rows(), [&](std::size_t bin, std::size_t wo) { return fitted.seen(bin, wi, wo); });
+    const Eigen::MatrixXd masses =
+        values(of_lobes.rows(), [&](std::size_t lobe, std::size_t wo) { return fitted.table.mass(lobe, 0, wi, wo); });
+    const double squares = exact.cwiseProduct(of_facets * exact).sum();
+    return Sums{.squares = squares,
+                .differences = squares - 2.0 * exact.cwiseProduct(mixed * masses).sum() +
+                               masses.cwiseProduct(of_lobes * masses).sum()};
+  });
   return std::sqrt(std::max(sum.differences, 0.0) / sum.squares);
 }
 

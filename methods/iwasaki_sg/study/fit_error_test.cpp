@@ -1,5 +1,5 @@
 // The figures of fits against the numbers that the paper prints, and against cases that are known.
-#include "methods/iwasaki_sg/study/fit_error.hpp"
+#include "methods/iwasaki_sg/study/effective_brdf.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 
 #include "methods/iwasaki_sg/material_table.hpp"
 #include "methods/iwasaki_sg/study/effective_brdf.hpp"
-#include "methods/iwasaki_sg/study/fit_error.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/progress.hpp"

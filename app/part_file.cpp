@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/core/numbers.hpp"
 
 namespace footprint {
 namespace {
@@ -21,13 +21,6 @@ constexpr std::array<Word<PartKind>, 2> part_kinds{{
 }};
 constexpr int most_shards = 100000;
 constexpr int most_processes = 64, most_tile = 1 << 16;  // as the options of a run have them
-
-// A whole number without a sign; 0 where it is none.
-int count_of(std::string_view text) {
-  int number = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return status == std::errc{} && end == text.data() + text.size() ? number : 0;
-}
 
 Error damaged(const std::filesystem::path& file) {
   return {ErrorKind::usage, file.string(), "is damaged", "run that part again"};
@@ -44,8 +37,8 @@ int whole_number(const nlohmann::json& value, int least, int most, const std::fi
 Shard parse_shard(const std::string& text) {
   const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string_view all = text;
-  const Shard shard{.index = count_of(all.substr(0, slash)),
-                    .count = slash < text.size() ? count_of(all.substr(slash + 1)) : 0};
+  const Shard shard{.index = parse_whole_of<int>(all.substr(0, slash)).value_or(0),
+                    .count = slash < text.size() ? parse_whole_of<int>(all.substr(slash + 1)).value_or(0) : 0};
   if (shard.index >= 1 && shard.count >= shard.index && shard.count <= most_shards) return shard;
   throw Error(ErrorKind::usage, "--shard", fmt::format("`{:.80}` is not a part", text),
               "give I/N, part I of N, for example 1/4");

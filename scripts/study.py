@@ -1,7 +1,6 @@
 """Shared by the scripts that run experiments and write pages from their results.
 
-It reads experiments and results.json, runs the program, formats numbers, tables and text, and has the Pareto front and
-the noise floors of claims.
+It reads experiments and results.json, runs the program, formats numbers, tables and text, and has the Pareto front.
 """
 import argparse
 import collections
@@ -9,7 +8,6 @@ import json
 import math
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import textwrap
@@ -18,14 +16,10 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = pathlib.Path(os.environ.get("FOOTPRINT_PROGRAM", ROOT / "build/release/app/footprint"))
 PROSE_WIDTH = 120
-# Which noise floor of a record belongs to the errors that a function of claims compares.
-FLOOR_OF = {"error": "noise_floor", "shading_error": "shading_floor", "edge_error": "noise_floor",
-            "representation": "noise_floor", "filtering": "noise_floor"}
 OURS = ("cells", "ndf_atlas")
 UNPUBLISHED = (*OURS, "tan_gmm:covariance=full")  # no paper has this variant of tan_gmm either
 PLAIN = "plain supersampling"
 SUPERSAMPLING = (1, 2, 4, 8, 16, 32, 64)
-FLOOR_SHARE = 3.0  # a reference has converged for a claim if its floor is under the difference over this
 
 
 class Missing(Exception):
@@ -81,6 +75,15 @@ def load_results(path):
         raise Missing(f"{path}: {error}") from error
 
 
+def results_in(folder):
+    """All results of the runs in a folder, in the order of their names."""
+    return [load_results(file) for file in sorted(folder.glob("*/results.json"))]
+
+
+def results_by_filter(folder):
+    return {results["footprint"]: results for results in results_in(folder)}
+
+
 def run_footprint(*words, program=PROGRAM, cache=None):
     """The output of the program; Missing if it fails. `cache` is a folder for bakes instead of the user's own."""
     environment = os.environ | ({"FOOTPRINT_CACHE": str(cache.absolute())} if cache else {})
@@ -88,6 +91,14 @@ def run_footprint(*words, program=PROGRAM, cache=None):
     if done.returncode != 0:
         raise Missing(f"`footprint {' '.join(map(str, words))}` failed (exit code {done.returncode})")
     return done.stdout
+
+
+def tracked_files(root):
+    """The names of the files that git tracks or would track; in a folder without git, of all but those of builds."""
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                            capture_output=True, text=True, check=False)
+    names = listed.stdout.split("\0") if listed.returncode == 0 else [path.relative_to(root).as_posix() for path in root.rglob("*")]
+    return sorted(name for name in names if (root / name).is_file() and not name.startswith("build"))
 
 
 def run_command(*words, cwd=None):
@@ -276,57 +287,3 @@ def error_on_front(front, cost):
     (c0, e0), (c1, e1) = before[-1][:2], after[0][:2]
     t = (math.log(cost) - math.log(c0)) / (math.log(c1) - math.log(c0))
     return math.exp(math.log(e0) + t * (math.log(e1) - math.log(e0)))
-
-
-# ---- noise floors of claims
-
-def calls_of(inequality):
-    """The calls of an inequality, also those within `abs`: (function, method, selectors)."""
-    found = []
-    for function, inside in re.findall(r"([a-z_0-9]+)\(((?:[^()]|\([^()]*\))*)\)", inequality):
-        if function == "abs":
-            found += calls_of(inside)
-            continue
-        method, *selectors = [part.strip() for part in inside.split(",")]
-        found.append((function, method, dict(selector.split("=", 1) for selector in selectors)))
-    return found
-
-
-def is_method(written, method):
-    """Whether a call means a record's method: by its full text, or by its name without options."""
-    return written == method or (":" not in method and written.split(":")[0] == method)
-
-
-def floor_of_call(records, function, method, selectors):
-    """The mean noise floor over the records that a call selects; None if a record has none."""
-    named = [r for r in records if r["method"] == method] or [r for r in records if is_method(r["method"], method)]
-    chosen = [r for r in named if ("frame" not in selectors or r["frame"] == int(selectors["frame"]))
-              and ("distance" not in selectors or math.isclose(r["distance"], float(selectors["distance"])))]
-    if function == "flicker":
-        floors = [r["flicker"]["noise_floor"] for r in chosen if r["flicker"]]
-    else:
-        floors = [r["error"][FLOOR_OF[function]] for r in chosen if r["error"]]
-    return None if not floors or None in floors else sum(floors) / len(floors)
-
-
-def claim_floors(document):
-    """(claim, difference of its sides, floor) of each claim of a results.json that has a floor.
-
-    Only claims that compare errors against the converged reference have one. Claims over times, bytes, quantities,
-    distributions or quotients have none, nor do claims against a reference of few samples (`spp=`).
-    """
-    for claim in document["experiment"]["claims"]:
-        calls = calls_of(claim["inequality"])
-        sides = (claim["left"], claim["right"])
-        of_errors = all(function in FLOOR_OF or function == "flicker" for function, _, _ in calls)
-        if not calls or not of_errors or "/" in claim["inequality"] or None in sides:
-            continue
-        if any("spp" in selectors for _, _, selectors in calls):
-            continue
-        floors = [floor_of_call(document["records"], *call) for call in calls]
-        if None not in floors:
-            yield claim["name"], abs(sides[0] - sides[1]), max(floors)
-
-
-def has_converged(difference, floor):
-    return FLOOR_SHARE * floor < difference

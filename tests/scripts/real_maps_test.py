@@ -1,4 +1,4 @@
-"""scripts/real_maps, real_maps_study and real_maps_lobes on small trees, and no constant is chosen on held-out maps."""
+"""scripts/real_maps and real_maps_study on small trees, and no constant is chosen on held-out maps."""
 import hashlib
 import json
 import os
@@ -184,7 +184,7 @@ class RealMaps(unittest.TestCase):
         self.assertEqual(self.collect().returncode, 0)
 
         def lobes(*words):
-            return subprocess.run([SOURCE / "scripts/real_maps_lobes", self.out, self.folder / "lobes", *words],
+            return subprocess.run([SOURCE / "scripts/real_maps_study", self.out, self.folder / "lobes", "--lobes", *words],
                                   capture_output=True, text=True, check=False, env=os.environ)
 
         missing = lobes()

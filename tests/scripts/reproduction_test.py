@@ -1,4 +1,4 @@
-"""scripts/reproduction and scripts/reference_floors: the document is made of results, faults in it are reported, floors too."""
+"""scripts/reproduction: the document is made of results, faults in it are reported, floors too."""
 import json
 import os
 import pathlib
@@ -45,7 +45,7 @@ class Tree(unittest.TestCase):
 
 class Floors(Tree):
     def lines_of(self, document):
-        done = script("reference_floors", self.write("e", document))
+        done = script("reproduction", "--floors", self.write("e", document))
         return done.returncode, done.stdout.splitlines()
 
     def test_a_floor_under_a_third_passes(self):
@@ -71,8 +71,8 @@ class Floors(Tree):
         self.assertEqual(self.lines_of(document)[0], 0)
 
     def test_what_is_no_measurement_is_refused(self):
-        self.assertEqual(script("reference_floors", self.write("e", results(0.1, 0.2, quick=True))).returncode, 2)
-        self.assertIn("has no results.json", script("reference_floors", self.folder / "none").stderr)
+        self.assertEqual(script("reproduction", "--floors", self.write("e", results(0.1, 0.2, quick=True))).returncode, 2)
+        self.assertIn("has no results.json", script("reproduction", "--floors", self.folder / "none").stderr)
 
 
 class Document(Tree):

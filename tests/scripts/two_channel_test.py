@@ -22,7 +22,7 @@ class TwoChannelMaps(unittest.TestCase):
 
     def test_the_page_has_a_row_for_each(self):
         parts = self.script.parts(self.script.PAGE.read_text(encoding="utf-8"))
-        rows = {name: set(self.script.figures(text)) - {"noise"} for name, (_, text) in parts.items()}
+        rows = {name: set(self.script.figures(text)) - {"noise"} for name, text in parts.items()}
         self.assertEqual(rows["maps"], set(self.script.METHODS) - {self.script.BOUND})
         self.assertEqual(rows["chains"], set(self.script.METHODS) - set(self.script.NOT_IN_CHAINS))
 

@@ -1,23 +1,11 @@
 // `footprint bake` and `footprint shader`: a method's maps as files with the GLSL that reads them, and its module in a
 // shader language, for other renderers.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <memory>
 #include <sstream>
-#include <string>
-#include <vector>
 
-#include "app/commands.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/baked_files/baked_files.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/pipeline/surface_program.hpp"
@@ -52,7 +40,6 @@ struct BakeArguments : RunArguments {
         ->check(CLI::Range(0, coarsest_level))
         ->needs(copy)
         ->capture_default_str();
-    add_quiet_flag(command, quiet);
   }
 
   std::string output;
@@ -206,7 +193,6 @@ struct ShaderArguments : RunArguments {
   explicit ShaderArguments(CLI::App& command) : RunArguments(command) {
     add_value(command, "--language", language, "WORD", "glsl, essl, hlsl, msl or spirv")->capture_default_str();
     add_value(command, "-o,--output", output, "FILE", "The file; default: standard output");
-    add_quiet_flag(command, quiet);
   }
 
   std::string language = "glsl";

@@ -16,13 +16,11 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "app/commands.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 
 namespace footprint {
@@ -75,7 +73,7 @@ FrameTimes times_of_one(const std::vector<std::string>& further, const fs::path&
   arguments.insert(arguments.end(), further.begin(), further.end());
   arguments.insert(arguments.end(), {timing_file_option, file.string(), "--quiet"});
   const ChildResult result = run_child(
-      {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = scratch / "times.log", .folder = {}},
+      {.program = "/proc/self/exe", .arguments = std::move(arguments), .errors = scratch / "times.log"},
       Error(ErrorKind::machine, "--processes", "a timing process cannot be started", "give fewer --processes"), tick);
   if (result.exit_code != 0) throw failure_of(result);
   FrameTimes times = nlohmann::json::parse(file_text(file)).get<FrameTimes>();
@@ -109,7 +107,6 @@ ChildResult run_compiler(const Chip& chip, const fs::path& driver, const fs::pat
   return run_child({.program = "/proc/self/exe",
                     .arguments = {"footprint", compile_command, folder.string()},
                     .errors = folder / "log.txt",
-                    .folder = {},
                     .variables = {fmt::format("RADV_FORCE_FAMILY={}", chip.family),
                                   fmt::format("VK_ICD_FILENAMES={}", driver.string()),
                                   fmt::format("VK_DRIVER_FILES={}", driver.string()), "VK_INSTANCE_LAYERS=",
@@ -175,14 +172,16 @@ void write_frame_times(const fs::path& file, const FrameTimes& times) {
   write_file_atomically(file, std::string_view(nlohmann::json(times).dump()));
 }
 
-std::vector<FrameTimes> times_of_processes(int count, const std::vector<std::string>& further, const fs::path& scratch,
-                                           const Progress& progress) {
-  std::vector<FrameTimes> times;
-  for (int process = 0; process < count; ++process) {
-    const std::string what = fmt::format("timing in process {} of {}", process + 2, count + 1);
-    times.push_back(times_of_one(further, scratch, [&] { progress(what, static_cast<double>(process) / count); }));
-  }
-  return times;
+FurtherTimes times_of_processes(int count, const std::vector<std::string>& further, const fs::path& scratch,
+                                const Progress& progress) {
+  return [=] {
+    std::vector<FrameTimes> times;
+    for (int process = 0; process < count; ++process) {
+      const std::string what = fmt::format("timing in process {} of {}", process + 2, count + 1);
+      times.push_back(times_of_one(further, scratch, [&] { progress(what, static_cast<double>(process) / count); }));
+    }
+    return times;
+  };
 }
 
 GpuCompiler amd_compiler() { return compile; }
@@ -193,7 +192,7 @@ GpuCompiler amd_compiler_if_installed() {
       return compile(chip, programs, progress);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::machine) throw;
-      return ChipOutcomes{.device = {}, .programs = {programs.size(), {.stage = {}, .failure = error.what()}}};
+      return ChipOutcomes{.programs = {programs.size(), {.failure = error.what()}}};
     }
   };
 }

@@ -18,7 +18,7 @@ struct ChildCommand {
   std::filesystem::path program;         ///< absolute
   std::vector<std::string> arguments;    ///< with the program's name first
   std::filesystem::path errors;          ///< file for its standard error, which is removed
-  std::filesystem::path folder;          ///< working directory; empty: this program's own
+  std::filesystem::path folder{};        ///< working directory; empty: this program's own
   std::vector<std::string> variables{};  ///< NAME=VALUE, in the place of this program's own
 };
 
@@ -44,12 +44,11 @@ inline constexpr double main_process_weight = 10;
 /// Writes times for the process that started this one. Errors (machine): the file cannot be written.
 void write_frame_times(const std::filesystem::path& file, const FrameTimes& times);
 
-/// Runs this program `count` times, one after the other, each with this process's own arguments, `further` ones, and
-/// `--timing-file` in `scratch`, which exists; nothing is left there. Errors: those of such a process, or
-/// Error{interrupted}.
-[[nodiscard]] std::vector<FrameTimes> times_of_processes(int count, const std::vector<std::string>& further,
-                                                         const std::filesystem::path& scratch,
-                                                         const Progress& progress);
+/// Runs this program `count` times when the times are needed, one after the other, each with this process's own
+/// arguments, `further` ones, and `--timing-file` in `scratch`, which exists; nothing is left there. Errors: those of
+/// such a process, or Error{interrupted}.
+[[nodiscard]] FurtherTimes times_of_processes(int count, const std::vector<std::string>& further,
+                                              const std::filesystem::path& scratch, const Progress& progress);
 
 /// The hidden subcommand that a compiling process runs.
 inline constexpr const char* compile_command = "compile-for-gpu";

@@ -1,32 +1,20 @@
 // `footprint compare`: methods against the supersampled reference on one scene, the error and fps table and the page;
 // and `footprint animate`: the frames of a zoom, an orbit or a light's path, with error and flicker against the
 // reference.
-#include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <numeric>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "app/child_process.hpp"
-#include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
 #include "app/part_file.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/studies/compare.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/process.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -41,7 +29,6 @@ struct CompareArguments : RunArguments {
   explicit CompareArguments(CLI::App& command) : RunArguments(command) {
     add_output_folder(command, output, "Folder for results.json, results.csv, table.md, index.html, images/");
     command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
-    add_quiet_flag(command, quiet);
     command.add_flag("-v,--verbose", verbose,
                      "Print all of table.md: errors by cause, pairs of methods, supersampling, bakes");
   }
@@ -66,10 +53,9 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
   };
-  const CompareContext context{
-      .further_times = [&] { return times_of_processes(others, {}, folder.path(), of_others); },
-      .so_far = so_far,
-      .gpu_compiler = amd_compiler()};
+  const CompareContext context{.further_times = times_of_processes(others, {}, folder.path(), of_others),
+                               .so_far = so_far,
+                               .gpu_compiler = amd_compiler()};
   Results results = run_compare(settings, folder.path(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
@@ -112,7 +98,6 @@ struct AnimateArguments : RunArguments {
               "Render part I of N of the frames into the output folder, for `footprint merge`");
     command.add_flag("--video", video, "Also make images/film.mp4 with ffmpeg: all methods side by side");
     command.add_flag("--fresh", fresh, "Render every frame again: discard the finished ones");
-    add_quiet_flag(command, quiet);
   }
 
   std::string output = "out";

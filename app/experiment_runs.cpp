@@ -1,39 +1,29 @@
 // Reports of whole runs, and finished work of parts of them.
 #include "app/experiment_runs.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <regex>
-#include <span>
-#include <utility>
 
 #include "app/child_process.hpp"
 #include "app/folders.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/bytes.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/core/process.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The times of the further processes of an experiment, taken when they are needed.
+// The times of the further processes of an experiment.
 FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scratch, const Progress& progress) {
-  const int others = experiment.run.timing.processes - 1;
-  if (others == 0) return {};
-  return [others, &experiment, scratch, progress] {
-    return times_of_processes(others, {timing_member_option, experiment.full_name()}, scratch, progress);
-  };
+  return times_of_processes(experiment.run.timing.processes - 1, {timing_member_option, experiment.full_name()},
+                            scratch, progress);
 }
 
 Results run_into(const Experiment& experiment, OutputFolder& folder, const FinishedWork& finished,
@@ -49,29 +39,10 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
   return results;
 }
 
-// Experiments that are judged together: the members of a matrix, or one alone.
-struct Group {
-  const RequestedMatrix* matrix;  // null: one alone
-  std::span<const Experiment> experiments;
-
-  [[nodiscard]] const Experiment& judged() const { return matrix != nullptr ? matrix->whole : experiments.front(); }
-};
-
-std::vector<Group> groups_of(const RequestedExperiments& requested) {
-  std::vector<Group> groups;
-  const std::span<const Experiment> all = requested.experiments;
-  for (std::size_t i = 0; i < all.size(); i += groups.back().experiments.size()) {
-    const auto matrix = std::ranges::find(requested.matrices, i, &RequestedMatrix::first);
-    const bool is_one = matrix != requested.matrices.end();
-    groups.push_back({is_one ? &*matrix : nullptr, all.subspan(i, is_one ? matrix->count : 1)});
-  }
-  return groups;
-}
-
 // The report over all members together.
-ExperimentReport report_matrix(const Group& group, std::vector<Results> members, const fs::path& output) {
+ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results> members, const fs::path& output) {
   const Experiment& whole = group.judged();
-  MatrixResults results{.report = judge(whole, members), .left_out = group.matrix->left_out, .members = {}};
+  MatrixResults results{.report = judge(whole, members), .left_out = group.left_out};
   results.report.quick = whole.quick;
   for (std::size_t i = 0; i < members.size(); ++i)
     results.members.push_back({.folder = group.experiments[i].name, .results = std::move(members[i])});
@@ -86,7 +57,7 @@ ExperimentReport report_matrix(const Group& group, std::vector<Results> members,
 
 // Runs a group into its folders below `output`, prints its results and passes them to the listener.
 // failed: set to the first failure of a row, if it has none.
-void run_group(const RequestedExperiments& requested, const Group& group, const fs::path& output,
+void run_group(const RequestedExperiments& requested, const ExperimentGroup& group, const fs::path& output,
                const FinishedWork& finished, bool quiet, const RunListener& listener, std::optional<Error>& failed) {
   NoiseGuard guard(group.judged(), group.experiments);
   std::vector<Results> all;
@@ -96,12 +67,12 @@ void run_group(const RequestedExperiments& requested, const Group& group, const 
       return run_into(experiment, folder, finished, display.callback(), guard.watch(experiment));
     });
     display.finish();
-    if (group.matrix == nullptr) print_results(results, path);
+    if (!group.matrix) print_results(results, path);
     listener.experiment(results);
     if (!failed) failed = row_failures(results);
     all.push_back(std::move(results));
   }
-  if (group.matrix == nullptr) return;
+  if (!group.matrix) return;
   listener.matrix(report_matrix(group, std::move(all), output / requested.folder_of(*group.matrix)));
 }
 
@@ -113,8 +84,10 @@ struct Assigned {
 
 std::vector<Assigned> all_units(const RequestedExperiments& requested) {
   std::vector<Assigned> all;
-  for (const Experiment& experiment : requested.experiments) {
-    for (WorkUnit& unit : work_units(experiment)) all.push_back({&experiment, std::move(unit)});
+  for (const ExperimentGroup& group : requested.groups) {
+    for (const Experiment& experiment : group.experiments) {
+      for (WorkUnit& unit : work_units(experiment)) all.push_back({&experiment, std::move(unit)});
+    }
   }
   return all;
 }
@@ -156,53 +129,68 @@ std::regex expression_of(const std::string& only) {
   }
 }
 
-// Adds those of a matrix whose names match; what is said of others is left out of the matrix.
-void add_members(RequestedExperiments& requested, const Experiment& whole, const std::regex& only, bool quick) {
-  RequestedMatrix matrix{.whole = whole, .first = requested.experiments.size(), .count = 0, .left_out = {}};
+// The members of a matrix whose names match; what is said of others is left out of it.
+ExperimentGroup matrix_group(const Experiment& whole, const std::string& only, bool quick) {
+  ExperimentGroup group{.experiments = {}, .matrix = whole};
+  const std::regex expression = expression_of(only);
   std::vector<Coordinates> missing;
   for (Experiment& member : members_of_matrix(whole)) {
-    if (!std::regex_search(member.name, only)) {
+    if (!std::regex_search(member.name, expression)) {
       missing.push_back(member.coordinates);
       continue;
     }
     if (quick) make_quick(member);
-    requested.experiments.push_back(std::move(member));
-    ++matrix.count;
+    group.experiments.push_back(std::move(member));
   }
-  matrix.whole.quick = quick;
-  matrix.left_out = leave_out(matrix.whole, missing);
-  requested.matrices.push_back(std::move(matrix));
+  group.matrix->quick = quick;
+  group.left_out = leave_out(*group.matrix, missing);
+  return group;
 }
 
 // Those of a folder, but for the ones that are made of others: their members lie there too.
-void add_folder(RequestedExperiments& requested, const ExperimentRequest& request) {
+std::vector<ExperimentGroup> groups_in(const fs::path& folder, const ExperimentRequest& request) {
   const std::regex only = expression_of(request.only);
-  for (const std::string& name : list_experiments(requested.file)) {
+  std::vector<ExperimentGroup> groups;
+  for (const std::string& name : list_experiments(folder)) {
     if (!std::regex_search(name, only)) continue;
-    Experiment experiment = experiment_of(requested.file / (name + ".toml"), request);
-    if (!experiment.axes.empty()) {
-      add_members(requested, experiment, std::regex(""), request.quick);
-    } else if (experiment.members.empty()) {
-      requested.experiments.push_back(std::move(experiment));
-    }
+    const Experiment experiment = experiment_of(folder / (name + ".toml"), request);
+    if (!experiment.members.empty()) continue;
+    groups.push_back(experiment.axes.empty() ? ExperimentGroup{.experiments = {experiment}}
+                                             : matrix_group(experiment, "", request.quick));
   }
-  if (!requested.experiments.empty()) return;
-  throw Error(ErrorKind::usage, request.only.empty() ? requested.file.string() : "--only",
-              fmt::format("no experiment in {} matches", requested.file.string()),
+  if (!groups.empty()) return groups;
+  throw Error(ErrorKind::usage, request.only.empty() ? folder.string() : "--only",
+              fmt::format("no experiment in {} matches", folder.string()),
               "`footprint list experiments` names those of this program");
 }
 
-std::vector<Experiment> members_of(const Experiment& named, const ExperimentRequest& request) {
+std::vector<ExperimentGroup> members_of(const Experiment& named, const ExperimentRequest& request) {
   const std::regex only = expression_of(request.only);
-  std::vector<Experiment> members;
-  for (const std::filesystem::path& file : named.members) {
+  std::vector<ExperimentGroup> members;
+  for (const fs::path& file : named.members) {
     if (!std::regex_search(file.stem().string(), only)) continue;
-    members.push_back(experiment_of(file, request));
-    if (members.back().members.empty() && members.back().axes.empty()) continue;
-    throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", members.back().name),
-                "name those instead");
+    const Experiment member = experiment_of(file, request);
+    if (!member.members.empty() || !member.axes.empty())
+      throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", member.name),
+                  "name those instead");
+    members.push_back({.experiments = {member}});
   }
   return members;
+}
+
+// The experiment that is named, or its members.
+std::vector<ExperimentGroup> groups_of(const Experiment& named, const ExperimentRequest& request) {
+  if (named.axes.empty() && named.members.empty()) {
+    if (request.only.empty()) return {{.experiments = {named}}};
+    throw Error(ErrorKind::usage, "--only", fmt::format("{} has no members to choose from", named.name),
+                "leave it out");
+  }
+  std::vector<ExperimentGroup> groups =
+      named.axes.empty() ? members_of(named, request) : std::vector{matrix_group(named, request.only, request.quick)};
+  if (!groups.empty() && !groups.front().experiments.empty()) return groups;
+  throw Error(ErrorKind::usage, "--only", fmt::format("no member of {} is called `{:.80}`", named.name, request.only),
+              named.axes.empty() ? "`footprint list experiments` names them"
+                                 : fmt::format("its first is {}", members_of_matrix(named).front().name));
 }
 
 // The settings that enter are those that a command line may set beside the file.
@@ -214,52 +202,35 @@ std::string fingerprint_of(const RequestedExperiments& requested, const Experime
     hash.add(std::as_bytes(std::span(bytes)));
   };
   if (!std::filesystem::is_directory(requested.file)) add_file(requested.file);
-  for (const Experiment& experiment : requested.experiments) {
+  const auto add_experiment = [&](const Experiment& experiment) {
     add_file(experiment.file);
     if (experiment.presets) add_file(*experiment.presets);
     for (const MethodSpec& method : experiment.run.methods)
       if (method.file) hash.add(method.file->file_content);
     hash.add(experiment.full_name());
     hash.add(fmt::format("{} {}", experiment.run.timing.processes, experiment.run.backend.tile));
-  }
+  };
+  for (const ExperimentGroup& group : requested.groups) std::ranges::for_each(group.experiments, add_experiment);
   hash.add(request.quick ? "quick" : "");
   return hash.hex();
 }
 
 }  // namespace
 
-std::filesystem::path RequestedExperiments::folder_of(const RequestedMatrix& matrix) const {
-  return file == matrix.whole.file ? std::filesystem::path() : std::filesystem::path(matrix.whole.name);
-}
-
-std::filesystem::path RequestedExperiments::folder_of(const Experiment& experiment) const {
-  if (!has_members()) return {};
-  return file == experiment.file ? experiment.name : experiment.full_name();
+fs::path RequestedExperiments::folder_of(const Experiment& experiment) const {
+  if (file != experiment.file) return experiment.full_name();
+  return experiment.whole.empty() ? fs::path() : fs::path(experiment.name);
 }
 
 RequestedExperiments requested_experiments(const ExperimentRequest& request) {
   RequestedExperiments requested;
-  if (std::filesystem::is_directory(request.experiment)) {
+  if (fs::is_directory(request.experiment)) {
     requested.file = request.experiment;
-    add_folder(requested, request);
-    requested.fingerprint = fingerprint_of(requested, request);
-    return requested;
-  }
-  requested.file = find_experiment(request.experiment, experiments_folder());
-  const Experiment named = experiment_of(requested.file, request);
-  const bool has_members = !named.members.empty() || !named.axes.empty();
-  if (!has_members && !request.only.empty())
-    throw Error(ErrorKind::usage, "--only", fmt::format("{} has no members to choose from", named.name),
-                "leave it out");
-  if (!named.axes.empty()) {
-    add_members(requested, named, expression_of(request.only), request.quick);
+    requested.groups = groups_in(requested.file, request);
   } else {
-    requested.experiments = has_members ? members_of(named, request) : std::vector{named};
+    requested.file = find_experiment(request.experiment, experiments_folder());
+    requested.groups = groups_of(experiment_of(requested.file, request), request);
   }
-  if (requested.experiments.empty())
-    throw Error(ErrorKind::usage, "--only", fmt::format("no member of {} is called `{:.80}`", named.name, request.only),
-                named.axes.empty() ? "`footprint list experiments` names them"
-                                   : fmt::format("its first is {}", members_of_matrix(named).front().name));
   requested.fingerprint = fingerprint_of(requested, request);
   return requested;
 }
@@ -298,15 +269,17 @@ void make_part(const Shard& shard, const fs::path& output, const FinishedWork& f
 std::optional<Error> run_and_print(const RequestedExperiments& requested, const fs::path& output,
                                    const FinishedWork& finished, bool quiet, const RunListener& listener) {
   std::optional<Error> failed;
-  const std::vector<Group> groups = groups_of(requested);
-  const auto run = [&](const Group& group) { run_group(requested, group, output, finished, quiet, listener, failed); };
+  const std::vector<ExperimentGroup>& groups = requested.groups;
+  const auto run = [&](const ExperimentGroup& group) {
+    run_group(requested, group, output, finished, quiet, listener, failed);
+  };
   if (groups.size() == 1) {
     run(groups.front());
     return failed;
   }
   std::vector<std::string> missing;
   ErrorKind kind = ErrorKind::machine;
-  for (const Group& group : groups) {
+  for (const ExperimentGroup& group : groups) {
     try {
       run(group);
     } catch (const Error& error) {
@@ -328,7 +301,7 @@ void run_part(const RequestedExperiments& requested, const Shard& shard, const f
   const OutputFolder scratch(output);  // never moved to its place
   const std::vector<Assigned> share = share_of(all_units(requested), shard);
   std::map<const Experiment*, std::shared_ptr<NoiseGuard>> guards;
-  for (const Group& group : groups_of(requested)) {
+  for (const ExperimentGroup& group : requested.groups) {
     const auto guard = std::make_shared<NoiseGuard>(group.judged(), group.experiments);
     for (const Experiment& experiment : group.experiments) guards[&experiment] = guard;
   }

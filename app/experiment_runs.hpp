@@ -24,28 +24,25 @@ struct ExperimentRequest {
   std::function<void(RunSettings& run)> apply;  ///< the command line's settings over an experiment's own
 };
 
-/// A matrix whose members are run, and the claims and figures over all of them.
-struct RequestedMatrix {
-  Experiment whole;
-  std::size_t first = 0, count = 0;   ///< its members, in the list of experiments
-  std::vector<std::string> left_out;  ///< claims and figures over members that --only leaves out: they are not judged
+/// Experiments that are judged together: the members of a matrix that are run, or one alone.
+struct ExperimentGroup {
+  std::vector<Experiment> experiments;
+  std::optional<Experiment> matrix = {};   ///< none: one alone
+  std::vector<std::string> left_out = {};  ///< what the matrix says of members that --only leaves out: it is not judged
+
+  [[nodiscard]] const Experiment& judged() const { return matrix ? *matrix : experiments.front(); }
 };
 
 /// The file or folder that is named, and the experiments to run: that one, its members, or all in the folder. None of
 /// them has members of its own.
 struct RequestedExperiments {
   std::filesystem::path file;
-  std::vector<Experiment> experiments;
-  std::vector<RequestedMatrix> matrices;
+  std::vector<ExperimentGroup> groups;
+  std::string fingerprint;  ///< of the files' bytes and of the settings of the command line
 
-  /// Whether each goes into a folder of its own name.
-  [[nodiscard]] bool has_members() const { return !matrices.empty() || file != experiments.front().file; }
-  /// The folder of a matrix' report below the output folder; empty for the one that is named.
-  [[nodiscard]] std::filesystem::path folder_of(const RequestedMatrix& matrix) const;
-  /// The same of an experiment's report.
+  [[nodiscard]] const Experiment& first() const { return groups.front().experiments.front(); }
+  /// The folder of the report of an experiment or a matrix below the output folder; empty for the only one.
   [[nodiscard]] std::filesystem::path folder_of(const Experiment& experiment) const;
-  /// A hash of the request: of the files' bytes and of the settings of the command line.
-  std::string fingerprint;
 };
 
 /// Errors (usage): no such experiment; of its files; members that have members; --only is not a regular expression, or

@@ -1,25 +1,12 @@
 // `footprint explain`: the effects of a scene with their reasons, its passes, textures and bytes, and their costs; and
 // `footprint cost`: what each method costs on GPUs, estimated from a driver's compiler.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <functional>
 #include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "app/child_process.hpp"
-#include "app/commands.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/gpu_cost.hpp"
 #include "experiments/studies/stage.hpp"
@@ -43,7 +30,6 @@ struct ExplainArguments : RunArguments {
   explicit ExplainArguments(CLI::App& command) : RunArguments(command) {
     command.add_flag("--cost", cost, "Measure what each effect adds to a frame's time");
     command.add_flag("--json", json, "Print JSON");
-    add_quiet_flag(command, quiet);
   }
 
   bool cost = false;
@@ -276,7 +262,6 @@ Examples:
 struct CostArguments : RunArguments {
   explicit CostArguments(CLI::App& command) : RunArguments(command) {
     add_output_folder(command, output, "Folder for cost.json, cost.csv, table.md; default: none");
-    add_quiet_flag(command, quiet);
   }
 
   std::string output;  // empty: the table is only printed

@@ -1,19 +1,10 @@
 // The subcommands about this program: `list`, `info` and `completions`.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 #include <variant>
-#include <vector>
 
-#include "app/commands.hpp"
 #include "app/folders.hpp"
 #include "app/help.hpp"
-#include "app/messages.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/method_file.hpp"
@@ -62,38 +53,6 @@ struct ListArguments {
   bool json = false;
 };
 
-std::string default_text(const OptionSpec& option) {
-  if (const auto* number = std::get_if<double>(&option.default_value)) return fmt::format("{}", *number);
-  return std::get<std::string>(option.default_value);
-}
-
-std::string range_text(const OptionSpec& option) {
-  if (option.choices.empty()) return fmt::format("{} to {}", option.minimum, option.maximum);
-  return fmt::format("{}", fmt::join(option.choices, ", "));
-}
-
-// A line per option; `prefix` precedes an option when it is written.
-std::string options_text(const std::vector<OptionSpec>& options, std::string_view prefix) {
-  std::string text;
-  for (const OptionSpec& option : options) {
-    text += fmt::format("      {}{}={}  ({})  {}\n", prefix, option.name, default_text(option), range_text(option),
-                        option.meaning);
-  }
-  return text;
-}
-
-std::string method_text(const MethodInfo& method) {
-  std::string text = fmt::format("  {}\n      {}\n", method.name, method.summary);
-  if (!method.paper.empty()) text += fmt::format("      {}\n", method.paper);
-  if (method.slow_precompute) text += "      bake takes seconds; cached on disk\n";
-  if (method.slow_frame) text += "      slow: seconds per frame; not part of `all`\n";
-  return text + options_text(method.options, ":");
-}
-
-std::string surface_text(const Surface& surface) {
-  return fmt::format("  {}\n      {}\n", surface.name, surface.summary) + options_text(surface.parameters, "");
-}
-
 Json option_json(const OptionSpec& option) {
   Json json{{"name", option.name}, {"meaning", option.meaning}};
   if (const auto* number = std::get_if<double>(&option.default_value)) {
@@ -131,20 +90,6 @@ Json method_json(const MethodInfo& method) {
           {"options", options_json(method.options)}};
 }
 
-// A line with renderer and version and one with its limits, or one line that says why it is not available.
-std::string backend_text(const gl::BackendReport& report) {
-  std::string name{gl::backend_name(report.backend)};
-  if (report.backend == gl::Backend::egl_device) name += fmt::format(" --device {}", report.device);
-  if (!report.info) return fmt::format("  {:<22} not available: {}\n", name, report.why_not);
-  const gl::ContextInfo& info = *report.info;
-  return fmt::format(
-      "  {:<22} {}, OpenGL {}{}\n"
-      "  {:<22} textures up to {} texels per side, frames up to {} without tiles, {} texture units, uniform blocks up "
-      "to {} bytes\n",
-      name, info.renderer, info.version, info.software ? ", software" : "", "", info.max_texture_size,
-      info.max_framebuffer_size, info.max_texture_units, info.max_uniform_block_bytes);
-}
-
 Json backend_json(const gl::BackendReport& report) {
   Json json{
       {"name", gl::backend_name(report.backend)}, {"device", report.device}, {"available", report.info.has_value()}};
@@ -163,12 +108,6 @@ Json backend_json(const gl::BackendReport& report) {
   json["max_texture_units"] = info.max_texture_units;
   json["max_uniform_block_bytes"] = info.max_uniform_block_bytes;
   return json;
-}
-
-std::string backends_text() {
-  std::string text = "backends\n";
-  for (const gl::BackendReport& report : gl::probe_backends()) text += backend_text(report);
-  return text;
 }
 
 Json kind_json(std::string_view kind) {
@@ -191,23 +130,60 @@ std::vector<std::string> names_of(std::string_view kind) {
   return names;
 }
 
-std::string kind_text(const std::string& kind) {
-  if (kind == "backends") return backends_text();
-  std::string text = kind + "\n";
-  if (kind == "methods") {
-    for (const Method* method : all_methods()) text += method_text(method->info);
-  } else if (kind == "surfaces") {
-    for (const Surface& surface : all_surfaces()) text += surface_text(surface);
-  } else {
-    for (const std::string& name : names_of(kind)) text += fmt::format("  {}\n", name);
+// The following write the JSON as text.
+
+std::string word(const Json& entry, const char* key) {
+  return entry[key].is_string() ? entry[key].get<std::string>() : fmt::format("{}", entry[key].get<double>());
+}
+
+// prefix: precedes an option when it is written.
+std::string option_text(const Json& option, std::string_view prefix) {
+  const std::string values = option.contains("choices")
+                                 ? fmt::format("{}", fmt::join(option["choices"].get<std::vector<std::string>>(), ", "))
+                                 : fmt::format("{} to {}", word(option, "minimum"), word(option, "maximum"));
+  return fmt::format("      {}{}={}  ({})  {}\n", prefix, word(option, "name"), word(option, "default"), values,
+                     word(option, "meaning"));
+}
+
+// A line with renderer and version and one with its limits, or one line that says why it is not available.
+std::string backend_text(const Json& backend) {
+  std::string name = word(backend, "name");
+  if (name == gl::backend_name(gl::Backend::egl_device)) name += " --device " + word(backend, "device");
+  if (!backend["available"]) return fmt::format("  {:<22} not available: {}\n", name, word(backend, "why_not"));
+  return fmt::format(
+      "  {:<22} {}, OpenGL {}{}\n"
+      "  {:<22} textures up to {} texels per side, frames up to {} without tiles, {} texture units, uniform blocks up "
+      "to {} bytes\n",
+      name, word(backend, "renderer"), word(backend, "version"), backend["software"] ? ", software" : "", "",
+      word(backend, "max_texture_size"), word(backend, "max_framebuffer_size"), word(backend, "max_texture_units"),
+      word(backend, "max_uniform_block_bytes"));
+}
+
+std::string entry_text(const Json& entry) {
+  if (entry.is_string()) return fmt::format("  {}\n", entry.get<std::string>());
+  if (entry.contains("device")) return backend_text(entry);
+  std::string text = fmt::format("  {}\n      {}\n", word(entry, "name"), word(entry, "summary"));
+  if (entry.contains("parameters")) {
+    for (const Json& parameter : entry["parameters"]) text += option_text(parameter, "");
+    return text;
   }
+  if (const std::string paper = word(entry, "paper"); !paper.empty()) text += fmt::format("      {}\n", paper);
+  if (entry["slow_precompute"]) text += "      bake takes seconds; cached on disk\n";
+  if (entry["slow_frame"]) text += "      slow: seconds per frame; not part of `all`\n";
+  for (const Json& option : entry["options"]) text += option_text(option, ":");
+  return text;
+}
+
+std::string kind_text(const std::string& kind) {
+  std::string text = kind + "\n";
+  for (const Json& entry : kind_json(kind)) text += entry_text(entry);
   return text;
 }
 
 void run_list(const ListArguments& arguments) {
   if (names_method_file(arguments.kind)) {
-    const MethodInfo info = read_method_file(arguments.kind)->info;
-    return write_output(arguments.json ? method_json(info).dump(2) + "\n" : method_text(info));
+    const Json method = method_json(read_method_file(arguments.kind)->info);
+    return write_output(arguments.json ? method.dump(2) + "\n" : entry_text(method));
   }
   std::vector<std::string> shown = kinds;
   if (!arguments.kind.empty()) shown = {kinds[find_word(kinds, arguments.kind, "kind", "list")]};
@@ -225,7 +201,8 @@ void run_list(const ListArguments& arguments) {
 
 void run_info() {
   write_output(fmt::format("footprint {}\n\n{}\nmachine\n  {:<22} {}\n  {:<22} {} available\n", FOOTPRINT_VERSION,
-                           backends_text(), "processor", describe_cpu(), "memory", readable_bytes(available_memory())));
+                           kind_text("backends"), "processor", describe_cpu(), "memory",
+                           readable_bytes(available_memory())));
 }
 
 struct CompletionsArguments {

@@ -1,27 +1,15 @@
 // `footprint surface`, `footprint statistics` and `footprint ndf`: the normal map of a procedural surface for other
 // tools, what a normal map is like by the size of a footprint, and each method's NDF of the facets under one.
-#include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "app/commands.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/bake/map_statistics.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
@@ -143,10 +131,10 @@ struct StatisticsArguments {
 struct Statistics {
   int width = 0, height = 0;
   double unit_share = 0;
-  std::optional<double> correlation;  // with the gloss map
-  std::optional<double> mean_alpha;
+  std::optional<double> correlation = {};  // with the gloss map
+  std::optional<double> mean_alpha = {};
   std::vector<LevelStatistics> levels;
-  std::vector<LobeErrors> lobe_errors;  // per level; empty without a roughness
+  std::vector<LobeErrors> lobe_errors = {};  // per level; empty without a roughness
 };
 
 // An error of the work names its file.
@@ -180,10 +168,7 @@ Statistics statistics_of(const StatisticsArguments& arguments) {
   Statistics statistics{.width = normals.width,
                         .height = normals.height,
                         .unit_share = encoded ? unit_share(read_image(file.path, Transfer::linear)) : 1.0,
-                        .correlation = {},
-                        .mean_alpha = {},
-                        .levels = map_statistics(normals),
-                        .lobe_errors = {}};
+                        .levels = map_statistics(normals)};
   if (!arguments.gloss.empty()) {
     const Image gloss = read_image(arguments.gloss, Transfer::linear);
     statistics.correlation =
@@ -265,7 +250,6 @@ struct NdfArguments : RunArguments {
         ->check(CLI::Range(16, 4096))
         ->capture_default_str();
     add_output_folder(command, output, "Folder for index.html, ndf.json, ndf.png, images/")->required();
-    add_quiet_flag(command, quiet);
   }
 
   std::string source;
@@ -310,10 +294,8 @@ FootprintRect footprint_of(const NdfArguments& arguments, const Material& materi
 }
 
 void run_ndf(const NdfArguments& arguments) {
-  NdfSettings settings{.run = arguments.run.settings(),
-                       .footprint = {},
-                       .resolution = arguments.resolution,
-                       .picture = arguments.picture_size};
+  NdfSettings settings{
+      .run = arguments.run.settings(), .resolution = arguments.resolution, .picture = arguments.picture_size};
   if (!arguments.footprint.empty()) (void)parse_rectangle("--region", arguments.footprint);
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
   const std::optional<Lobe> lobe =

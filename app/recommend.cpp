@@ -1,28 +1,15 @@
 // `footprint recommend`: chooses a method for each material, within a limit of error, cost or size.
 #include "experiments/studies/recommend.hpp"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "app/child_process.hpp"
-#include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
-#include "app/run_options.hpp"
-#include "experiments/studies/quick_advice.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
+#include "app/subcommand.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -69,7 +56,6 @@ struct RecommendArguments : RunArguments {
     auto* again =
         command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
     quick->excludes(folder)->excludes(again);
-    add_quiet_flag(command, quiet);
   }
 
   std::string filters = "trilinear,anisotropic:8,shaded:2";
@@ -124,7 +110,7 @@ void write_answer(const Recommendation& answer, const std::filesystem::path& fol
 constexpr const char* usual_gpu = "Steam Deck";
 
 void run_quick_command(const RecommendArguments& arguments, const RecommendSettings& settings) {
-  QuickQuestion question{.methods = settings.run.methods, .filters = {}, .limits = settings.limits};
+  QuickQuestion question{.methods = settings.run.methods, .limits = settings.limits};
   for (const FootprintFilter& filter : settings.filters) question.filters.push_back(footprint_filter_text(filter));
   if (question.limits.max_cost && question.limits.gpu.empty())
     throw Error(ErrorKind::usage, "--max-cost", "--quick times no frames", "name a GPU: R@GPU");

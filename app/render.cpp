@@ -1,22 +1,9 @@
 // `footprint render`: one image of a scene by a method, or by the supersampled reference; and `footprint edit`:
 // small-scale geometry that changes every frame, with the time of each stage up to the picture.
-#include <fmt/format.h>
-#include <CLI/CLI.hpp>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "app/commands.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/studies/edit.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/stage.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -40,7 +27,6 @@ struct RenderArguments : RunArguments {
     add_value(command, "--frame", zoom_frame, "N", "Frame of the scene's zoom path, from 0")
         ->check(within(0.0, 1e6))
         ->excludes(command.get_option("--distance"));
-    add_quiet_flag(command, quiet);
   }
 
   std::optional<std::size_t> zoom_frame;
@@ -125,7 +111,6 @@ struct EditArguments : RunArguments {
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
     add_output_folder(command, output, "Folder for edit.json, edit.csv, table.md, images/");
-    add_quiet_flag(command, quiet);
   }
 
   std::vector<std::string> sets;
@@ -134,7 +119,7 @@ struct EditArguments : RunArguments {
 };
 
 EditSettings settings_from(const EditArguments& arguments) {
-  EditSettings settings{.run = arguments.run.settings(), .sweeps = {}, .frames = arguments.frames};
+  EditSettings settings{.run = arguments.run.settings(), .frames = arguments.frames};
   for (const std::string& set : arguments.sets) settings.sweeps.push_back(parse_sweep(set));
   if (settings.run.methods.front().name == "reference")
     throw Error(ErrorKind::usage, "--method", "`reference` has no precompute to time", "name a method");

@@ -1,32 +1,19 @@
 // `footprint run` and `footprint check`: an experiment, its figures beside the published ones, and its claims; and
 // `footprint merge`: the parts of a run, made by `run --shard`, joined to its report.
-#include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iterator>
-#include <map>
-#include <optional>
-#include <string>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "app/child_process.hpp"
-#include "app/commands.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
 #include "app/hard_cases.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
 #include "app/part_file.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "renderer/core/bytes.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/process.hpp"
 #include "results/report/experiment_report.hpp"
 
@@ -82,7 +69,6 @@ struct ExperimentArguments : RunArguments {
     command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
     command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
     command.add_option(timing_member_option, timing_member)->group("");
-    add_quiet_flag(command, quiet);
     if (command.get_name() == "check") {
       command.add_flag("--wide", wide, "hard_cases: every storage in every case, and slow cases too");
       add_value(command, "--junit", reports.junit, "FILE", "Also write every claim and threshold as JUnit XML");
@@ -121,9 +107,10 @@ RequestedExperiments requested(const ExperimentArguments& arguments) {
 
 // The job of a timing process: times the frames of one member.
 void take_times(const ExperimentArguments& arguments) {
-  for (const Experiment& experiment : requested(arguments).experiments) {
-    if (experiment.full_name() != arguments.timing_member) continue;
-    return write_frame_times(arguments.timing_file, time_frames(experiment.run, no_progress));
+  for (const ExperimentGroup& group : requested(arguments).groups) {
+    const auto found = std::ranges::find(group.experiments, arguments.timing_member, &Experiment::full_name);
+    if (found == group.experiments.end()) continue;
+    return write_frame_times(arguments.timing_file, time_frames(found->run, no_progress));
   }
   throw Error(ErrorKind::usage, timing_member_option, fmt::format("no experiment `{}` here", arguments.timing_member),
               "it is for processes that this program starts itself");
@@ -132,8 +119,7 @@ void take_times(const ExperimentArguments& arguments) {
 // Runs the experiment, or each of its members into a folder of its own, and prints the tables.
 std::optional<Error> run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const RequestedExperiments experiments = requested(arguments);
-  const FinishedWork finished =
-      finished_work_of(experiments.experiments.front().run, arguments.output, arguments.fresh);
+  const FinishedWork finished = finished_work_of(experiments.first().run, arguments.output, arguments.fresh);
   std::optional<Error> failed = run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
   if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
   return failed;
@@ -142,7 +128,7 @@ std::optional<Error> run_all(const ExperimentArguments& arguments, const RunList
 void run_shard(const ExperimentArguments& arguments) {
   const Shard shard = parse_shard(arguments.shard);
   const RequestedExperiments experiments = requested(arguments);
-  const RunSettings& run = experiments.experiments.front().run;
+  const RunSettings& run = experiments.first().run;
   const FinishedWork finished = finished_work_of(run, arguments.output, arguments.fresh);
   make_part(shard, arguments.output, finished, [&]() -> PartFile {
     run_part(experiments, shard, arguments.output, finished, arguments.quiet);
@@ -282,7 +268,6 @@ struct MergeArguments : RunArguments {
   explicit MergeArguments(CLI::App& command) : RunArguments(command) {
     command.add_option("part", parts, "Output folders of all parts")->required()->type_name("PART");
     add_output_folder(command, output, "Folder for results.json, results.csv, table.md, index.html, images/, kept/");
-    add_quiet_flag(command, quiet);
   }
 
   std::vector<std::string> parts;
@@ -292,6 +277,8 @@ struct MergeArguments : RunArguments {
 struct Part {
   fs::path folder;
   PartFile file;
+
+  [[nodiscard]] int index() const { return file.shard.index; }
 };
 
 [[noreturn]] void refuse(const Part& part, const std::string& why, const std::string& hint) {
@@ -300,39 +287,33 @@ struct Part {
 
 // All parts, in the order of their numbers. Errors (usage): one does not go with the first, is there twice, or missing.
 std::vector<Part> parts_of(const std::vector<std::string>& folders) {
-  std::map<int, Part> parts;
+  std::vector<Part> parts;
   for (const std::string& folder : folders) {
-    Part part{folder, read_part_file(folder)};
-    const int index = part.file.shard.index;
-    if (parts.contains(index))
-      refuse(part, fmt::format("is part {}, and so is {}", index, parts.at(index).folder.string()),
-             "name each part once");
-    if (!parts.empty()) {
-      const Part& first = parts.begin()->second;
-      const std::string other = first.folder.string();
-      if (part.file.fingerprint != first.file.fingerprint)
-        refuse(part, fmt::format("has another experiment or other options than {}", other),
-               "merge the parts of one run");
-      if (part.file.maker != first.file.maker)
-        refuse(part, fmt::format("was made by another program or OpenGL than {}", other),
-               "run all parts with one program, on machines of one kind");
-      if (part.file.shard.count != first.file.shard.count)
-        refuse(part,
-               fmt::format("is one of {} parts, but {} is one of {}", part.file.shard.count, other,
-                           first.file.shard.count),
-               "merge the parts of one run");
-    }
-    parts.emplace(index, std::move(part));
+    const Part& part = parts.emplace_back(Part{folder, read_part_file(folder)});
+    const auto& [other, first] = parts.front();
+    const auto same = std::ranges::find(parts, part.index(), &Part::index);
+    if (&*same != &part)
+      refuse(part, fmt::format("is part {}, and so is {}", part.index(), same->folder.string()), "name each part once");
+    if (part.file.fingerprint != first.fingerprint)
+      refuse(part, fmt::format("has another experiment or other options than {}", other.string()),
+             "merge the parts of one run");
+    if (part.file.maker != first.maker)
+      refuse(part, fmt::format("was made by another program or OpenGL than {}", other.string()),
+             "run all parts with one program, on machines of one kind");
+    if (part.file.shard.count != first.shard.count)
+      refuse(part,
+             fmt::format("is one of {} parts, but {} is one of {}", part.file.shard.count, other.string(),
+                         first.shard.count),
+             "merge the parts of one run");
   }
-  std::vector<Part> all;
-  all.reserve(parts.size());
-  for (auto& [index, part] : parts) all.push_back(std::move(part));
-  for (int index = 1; index <= all.front().file.shard.count; ++index) {
-    if (!std::ranges::any_of(all, [&](const Part& part) { return part.file.shard.index == index; }))
-      refuse(all.front(), fmt::format("part {} of {} is missing", index, all.front().file.shard.count),
-             fmt::format("run it with --shard {}/{}, and add its folder", index, all.front().file.shard.count));
+  std::ranges::sort(parts, {}, &Part::index);
+  const int count = parts.front().file.shard.count;
+  for (int index = 1; index <= count; ++index) {
+    if (std::ranges::find(parts, index, &Part::index) == parts.end())
+      refuse(parts.front(), fmt::format("part {} of {} is missing", index, count),
+             fmt::format("run it with --shard {}/{}, and add its folder", index, count));
   }
-  return all;
+  return parts;
 }
 
 // As the parts were run. Errors (usage): the files or this program are not what they were.

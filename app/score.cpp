@@ -1,27 +1,13 @@
 // `footprint score`: images of any origin against a reference.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "app/commands.hpp"
-#include "app/messages.hpp"
-#include "app/output.hpp"
-#include "app/run_options.hpp"
+#include "app/subcommand.hpp"
 #include "experiments/studies/score.hpp"
 #include "experiments/studies/stage.hpp"
-#include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
@@ -30,7 +16,6 @@
 #include "results/report/experiment_report.hpp"
 #include "results/report/json_archive.hpp"
 #include "results/report/page.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -85,7 +70,6 @@ struct ScoreArguments : RunArguments {
         ->check(within(5.0, 1000.0))
         ->capture_default_str();
     add_output_folder(command, output, "Folder for index.html, score.json and images; default: none");
-    add_quiet_flag(command, quiet);
   }
 
   std::vector<std::string> pictures;
@@ -245,7 +229,7 @@ Json scores_json(const ScoreArguments& arguments, const Scores& scores) {
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "n/a"; }
 
 Table table_of(const Scores& scores) {
-  Table table{.heading = {}, .columns = {{"Image", false}}, .rows = {}};
+  Table table{.columns = {{"Image", false}}};
   for (const ScoreMetric& metric : score_metrics()) table.columns.push_back({std::string(metric.title)});
   for (const PictureScore& score : scores.pictures) {
     table.rows.push_back({score.name});

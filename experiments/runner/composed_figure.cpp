@@ -1,5 +1,5 @@
 // Cuts, enlarges and labels the pictures of a composed figure and pads them into rows.
-#include "experiments/runner/composed_figure.hpp"
+#include "experiments/runner/run_experiment.hpp"
 
 #include <fmt/format.h>
 

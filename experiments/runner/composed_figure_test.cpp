@@ -1,5 +1,5 @@
 // Crops and insets, pixel by pixel.
-#include "experiments/runner/composed_figure.hpp"
+#include "experiments/runner/run_experiment.hpp"
 
 #include <gtest/gtest.h>
 

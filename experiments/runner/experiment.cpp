@@ -9,9 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
-#include "experiments/studies/views.hpp"
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -100,7 +99,7 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
     return parsed;
   });
   const std::size_t expect = needed(table, "expect", table.choice("expect", {"reproduced", "not_reproduced"}));
-  Claim claim{.stated = {}, .inequality = std::move(inequality)};
+  Claim claim{.inequality = std::move(inequality)};
   claim.stated.name = required_word(table, "name");
   claim.stated.text = required_word(table, "text");
   claim.stated.source = read_word(table, "source", claim_source_words).value_or(ClaimSource::ours);
@@ -159,7 +158,6 @@ void read_published(const TomlTable& table, Experiment& experiment) {
                                                 .measure = measure.text(),
                                                 .unit = value.word("unit").value_or(""),
                                                 .published = number,
-                                                .measured = {},
                                                 .note = value.word("note").value_or("")},
                                     .measure = std::move(measure)});
   }

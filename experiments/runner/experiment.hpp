@@ -1,4 +1,5 @@
-// An experiment as a plain value: what its TOML says (docs/reference/experiments.md).
+// An experiment as a plain value: what its TOML says (docs/reference/experiments.md); and its [matrix]: values that
+// settings take in turn, and the members that come of them.
 #pragma once
 
 #include <array>
@@ -6,18 +7,20 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/runner/expression.hpp"
-#include "experiments/runner/matrix.hpp"
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 
 namespace footprint {
 
+class TomlTable;
+
 /// A statement, of a paper or our own, as an inequality over the records.
 struct Claim {
-  ClaimOutcome stated;  ///< undecided
+  ClaimOutcome stated = {};  ///< undecided
   Inequality inequality;
 };
 
@@ -46,6 +49,12 @@ struct NamedQuantity {
   std::string quantity;                           ///< what the method calls it (Method::quantities)
   std::map<std::string, std::string> parameters;  ///< those that are given
   std::string material;                           ///< of the scene; empty: its first
+};
+
+/// The values that one setting takes in turn, as an option takes them.
+struct Axis {
+  std::string key;  ///< of the setting, and of its selector in expressions: "scene"
+  std::vector<std::string> values = {};
 };
 
 /// A rectangle of a picture in shares of its width and height, from the top left: left, top, right, bottom.
@@ -109,5 +118,30 @@ void check_against_scenes(const Experiment& experiment);
 
 /// The distances of an experiment: those that it gives, or its scene's. Errors (usage): of its scene.
 [[nodiscard]] std::vector<double> distances_of(const Experiment& experiment);
+
+/// The keys of [matrix] that a setting of [`table`] has too; without a table all.
+[[nodiscard]] std::vector<std::string> axis_keys(std::string_view table = {});
+
+/// The keys that a file's [matrix] has. Errors (usage) name file and line: a key that it does not take, or none.
+[[nodiscard]] std::vector<std::string> matrix_keys_of(const TomlTable& root);
+
+/// Reads [matrix], where a file has it, into an experiment that has the file's other settings: its axes, the first
+/// member's settings, and methods times options. Errors (usage) name file, line and key: values that the setting does
+/// not take, one that is there twice, too many members or methods.
+void read_matrix(const TomlTable& root, Experiment& experiment);
+
+/// The members, the last axis first to change; each with a name of its own that a folder may have. What is said of all
+/// of them together, claims and thresholds, is left to the whole.
+[[nodiscard]] std::vector<Experiment> members_of_matrix(const Experiment& whole);
+
+/// Whether a measure includes the member at these coordinates.
+[[nodiscard]] bool selects(const Measure& measure, const Coordinates& member);
+
+/// Takes out of `whole` the claims, thresholds and published figures that are over any of the members in `missing`, and
+/// gives their names.
+std::vector<std::string> leave_out(Experiment& whole, const std::vector<Coordinates>& missing);
+
+/// The scene that a file means by `name`: the one beside it, else of the library.
+[[nodiscard]] std::string scene_of_file(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace footprint

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "experiments/runner/run_experiment.hpp"
-#include "experiments/studies/views.hpp"
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "tests/support/fresh_folder.hpp"

@@ -4,13 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"

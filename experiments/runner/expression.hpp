@@ -19,7 +19,6 @@ namespace footprint {
 
 struct Experiment;
 struct FigureFunction;
-class Samples;
 
 /// A selector of a call: `distance=4`, in the order in which calls are written.
 enum class Selector {
@@ -127,16 +126,25 @@ struct Inequality {
 /// because each ratio is formed on one machine.
 [[nodiscard]] std::string mixed_hosts_message(const std::set<std::string>& nodes);
 
+/// The figure of one record, or of another thing that a run measured.
+struct Sample {
+  std::optional<double> value{};
+  std::string absent{};  ///< why there is none, if the record says so
+  bool at_noise_floor = false;
+  std::optional<double> noise_floor{};  ///< of an error
+  std::string node{};                   ///< of a time
+};
+
 /// A function of a method's figures: a row of the table.
 struct FigureFunction {
   std::string_view name;
   std::vector<Selector> selectors;
   /// Refuses (usage) a call that a run of the experiment would have no figure for.
   void (*needs)(const Measure& measure, const Experiment& experiment);
-  /// Adds the figures of `method`, as the run writes it, that the measure is the mean of.
-  std::function<void(const Measure& measure, const std::string& method, const Results& run, Samples& samples)> add;
+  /// The figures of `method`, as the run writes it, that the measure is the mean of.
+  std::function<std::vector<Sample>(const Measure& measure, const std::string& method, const Results& run)> samples;
   std::string_view absent = "no record has this figure";  ///< the problem if no record has it
-  std::string_view none = "the run has no such record";   ///< the problem if nothing was added
+  std::string_view none = "the run has no such record";   ///< the problem if there is no sample
 };
 
 /// The table, in the order of the documentation.

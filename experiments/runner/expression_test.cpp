@@ -20,11 +20,11 @@ Record record_of(const std::string& method, int frame, double distance, double e
   record.error.emplace().normalized_color = error;
   record.error->psnr = 30;
   record.error->noise_floor = 0.01;
-  record.other_references = {{.spp = 16, .normalized_color = 2 * error, .noise_floor = {}}};
+  record.other_references = {{.spp = 16, .normalized_color = 2 * error}};
   record.frame_ms.median = ms;
   record.precompute_bytes = 1024;
   record.equivalent = EquivalentSamples{64, CurveSide::above};
-  if (frame > 0) record.flicker = Flicker{.mean = error / 2, .p99 = 3 * error, .noise_floor = {}};
+  if (frame > 0) record.flicker = Flicker{.mean = error / 2, .p99 = 3 * error};
   return record;
 }
 

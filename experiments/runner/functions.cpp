@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "experiments/runner/experiment.hpp"
-#include "experiments/settings/known_methods.hpp"
-#include "experiments/studies/views.hpp"
+#include "experiments/settings/setting.hpp"
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -91,96 +91,59 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
 // ---- figures
 
 using Figure = std::optional<double>;
-using Add = decltype(FigureFunction::add);
+using Samples = decltype(FigureFunction::samples);
 
-// The figure of one record.
-struct Sample {
-  Figure value;
-  std::string absent{};  // why there is none, if the record says so
-  bool at_noise_floor = false;
-  Figure noise_floor{};  // of an error
-  std::string node{};    // of a time
-};
+// Whether a measure of a method is over a record, or over another thing that was measured.
+bool is_over(const Measure& measure, const std::string& method, const Record& record) {
+  return record.method == method && measure.takes(Selector::distance, record.distance) &&
+         measure.takes(Selector::frame, record.frame);
+}
 
-}  // namespace
+bool is_over(const Measure& measure, const std::string& method, const FootprintNdf& figures) {
+  return figures.method == method && measure.takes(Selector::footprint, figures.footprint);
+}
 
-// Those of all records that are selected.
-class Samples {
- public:
-  void add(const Sample& sample) {
-    ++matching_;
-    if (!sample.value) {
-      absent_ = sample.absent;
-      return;
+bool is_over(const Measure& measure, const std::string& method, const QuantityFigure& figure) {
+  return figure.method == method && measure.takes(Selector::name, figure.name);
+}
+
+bool is_over(const Measure& measure, const std::string& /*method*/, const SupersamplingPoint& point) {
+  return measure.number(Selector::spp) == point.spp && measure.takes(Selector::distance, point.distance);
+}
+
+// A sample of each thing of a kind that the measure is over.
+// sample_of: makes it of the measure and the thing, or its value of the thing.
+template <class Thing, class SampleOf>
+Samples over(std::vector<Thing> Results::*things, SampleOf sample_of) {
+  return [=](const Measure& measure, const std::string& method, const Results& run) {
+    std::vector<Sample> samples;
+    for (const Thing& thing : run.*things) {
+      if (!is_over(measure, method, thing)) continue;
+      if constexpr (std::is_invocable_v<SampleOf, const Measure&, const Thing&>) {
+        samples.push_back(sample_of(measure, thing));
+      } else {
+        samples.push_back({.value = std::invoke(sample_of, thing)});
+      }
     }
-    sum_ += *sample.value;
-    ++count_;
-    noisy_ += sample.at_noise_floor ? 1 : 0;
-    floors_ += sample.noise_floor.value_or(0.0);
-    with_floor_ += sample.noise_floor ? 1 : 0;
-    if (!sample.node.empty()) nodes_.insert(sample.node);
-  }
-
-  [[nodiscard]] Measured mean(const Measure& measure) const {
-    Measured mean;
-    mean.text = measure_text(measure);
-    const auto count = static_cast<double>(count_);
-    if (matching_ == 0) {
-      mean.problem = measure.function->none;
-    } else if (count_ == 0) {
-      mean.problem = absent_.empty() ? measure.function->absent : absent_;
-    } else if (std::isnan(sum_)) {
-      mean.problem = "the figure is not a number";
-    } else {
-      mean.value = sum_ / count;
-    }
-    mean.at_noise_floor = count_ > 0 && noisy_ == count_;
-    if (count_ > 0 && with_floor_ == count_) mean.noise_floor = floors_ / count;
-    mean.nodes = nodes_;
-    mean.records = count_;
-    return mean;
-  }
-
- private:
-  double sum_ = 0, floors_ = 0;
-  std::size_t count_ = 0, noisy_ = 0, matching_ = 0, with_floor_ = 0;
-  std::set<std::string> nodes_;
-  std::string absent_;
-};
-
-namespace {
-
-// A figure of each record that is selected.
-Add over_samples(std::function<Sample(const Measure&, const Record&)> sample) {
-  return [sample = std::move(sample)](const Measure& measure, const std::string& method, const Results& run,
-                                      Samples& samples) {
-    for (const Record& record : run.records) {
-      if (record.method == method && measure.takes(Selector::distance, record.distance) &&
-          measure.takes(Selector::frame, record.frame))
-        samples.add(sample(measure, record));
-    }
+    return samples;
   };
 }
 
-Add over_records(std::function<Figure(const Record&)> figure) {
-  return over_samples([figure = std::move(figure)](const Measure& /*measure*/, const Record& record) {
-    return Sample{.value = figure(record)};
-  });
-}
+Samples over_records(auto sample_of) { return over(&Results::records, sample_of); }
 
 // A time, which belongs to the machine that it was taken on.
-Add over_times(std::function<Figure(const Record&)> time) {
-  return over_samples([time = std::move(time)](const Measure& /*measure*/, const Record& r) {
-    return Sample{.value = time(r), .node = r.node};
+Samples over_times(auto time) {
+  return over_records([time](const Measure& /*measure*/, const Record& r) {
+    return Sample{.value = std::invoke(time, r), .node = r.node};
   });
 }
 
 template <class Value>
-Add over_errors(Value RecordError::*member) {
+Samples over_errors(Value RecordError::*member) {
   return over_records([member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); });
 }
 
-Add over_causes(std::optional<double> ErrorCauses::*member) {
+Samples over_causes(std::optional<double> ErrorCauses::*member) {
   return over_records([member](const Record& r) { return r.error ? r.error->causes.*member : Figure(); });
 }
 
@@ -208,11 +171,11 @@ Sample shading_sample(const Measure& /*measure*/, const Record& record) {
 
 // A figure of the estimate on a GPU.
 template <class Value>
-Add over_gpu(Value GpuCost::*member) {
-  return over_samples([member](const Measure& measure, const Record& record) {
+Samples over_gpu(Value GpuCost::*member) {
+  return over_records([member](const Measure& measure, const Record& record) {
     for (const GpuCost& cost : record.gpu_costs) {
       if (!measure.takes(Selector::gpu, cost.gpu)) continue;
-      if (cost.failure) return Sample{.value = {}, .absent = *cost.failure};
+      if (cost.failure) return Sample{.absent = *cost.failure};
       return Sample{.value = static_cast<double>(cost.*member)};
     }
     return Sample{};
@@ -227,26 +190,8 @@ double shading_ms(const Record& record) {
   return record.frame_ms.median - (timed ? build_ms(record) : 0.0);
 }
 
-Add over_footprints(double FootprintNdf::*member) {
-  return [member](const Measure& measure, const std::string& method, const Results& run, Samples& samples) {
-    for (const FootprintNdf& figures : run.ndf) {
-      if (figures.method == method && measure.takes(Selector::footprint, figures.footprint))
-        samples.add({.value = figures.*member});
-    }
-  };
-}
-
-void add_supersampling(const Measure& measure, const std::string& /*method*/, const Results& run, Samples& samples) {
-  for (const SupersamplingPoint& point : run.supersampling) {
-    if (measure.number(Selector::spp) == point.spp && measure.takes(Selector::distance, point.distance))
-      samples.add({.value = point.ms, .node = point.node});
-  }
-}
-
-void add_quantities(const Measure& measure, const std::string& method, const Results& run, Samples& samples) {
-  for (const QuantityFigure& figure : run.quantities) {
-    if (figure.method == method && measure.takes(Selector::name, figure.name)) samples.add({.value = figure.value});
-  }
+Sample supersampling_sample(const Measure& /*measure*/, const SupersamplingPoint& point) {
+  return {.value = point.ms, .node = point.node};
 }
 
 std::vector<FigureFunction> function_table() {
@@ -256,55 +201,85 @@ std::vector<FigureFunction> function_table() {
   const std::vector<Selector> of_ndf{footprint, scene, size, seed};
   constexpr const char *no_bound = "the bound was not drawn", *no_estimate = "no record has an estimate for that GPU",
                        *no_footprint = "no such footprint was looked into";
-  return {
-      {"error", {distance, frame, spp, scene, size, filter, seed}, its_reference, over_samples(error_sample)},
-      {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
-      {"relmse", records, nothing, over_errors(&RecordError::relmse)},
-      {"psnr", records, nothing, over_errors(&RecordError::psnr)},
-      {"energy_bias", records, nothing, over_errors(&RecordError::energy_bias)},
-      {"luminance_distance", records, nothing, over_errors(&RecordError::luminance_distance)},
-      {"representation", records, nothing, over_errors(&RecordError::representation)},
-      {"filtering", records, nothing, over_errors(&RecordError::filtering)},
-      {"shading_error", records, nothing, over_samples(shading_sample), "no pixel is interior"},
-      {"edge_error", records, nothing, over_causes(&ErrorCauses::edges), "no pixel has an edge"},
-      {"filter_error", records, nothing, over_causes(&ErrorCauses::filter), no_bound},
-      {"method_error", records, nothing, over_causes(&ErrorCauses::method), no_bound},
-      {"light_error", records, nothing, over_causes(&ErrorCauses::light), "there is no environment"},
-      {"interior_pixels", records, nothing,
-       over_records([](const Record& r) { return static_cast<double>(r.pixels.interior); })},
-      {"noise_floor", records, nothing, over_errors(&RecordError::noise_floor)},
-      {"equivalent_spp", records, nothing,
-       over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
-      {"flicker", records, a_zoom, over_samples([](const Measure& /*measure*/, const Record& r) {
-         return r.flicker ? Sample{.value = r.flicker->mean, .noise_floor = r.flicker->noise_floor} : Sample{};
-       })},
-      {"flicker_p99", records, a_zoom,
-       over_records([](const Record& r) { return r.flicker ? Figure(r.flicker->p99) : Figure(); })},
-      {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
-      {"fps", records, nothing, over_times(&Record::fps)},
-      {"build", records, nothing, over_times(&Record::frame_build_ms)},
-      {"shading", records, nothing, over_times(shading_ms)},
-      {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
-      {"supersampling_time",
-       {distance, spp, scene, size, filter, seed},
-       a_timed_count,
-       add_supersampling,
-       "",
-       "no such count of samples was timed"},
-      {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
-      {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns), no_estimate},
-      {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions), no_estimate},
-      {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads), no_estimate},
-      {"precompute", records, nothing,
-       over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }),
-       "the bake came from the cache (give --no-cache)"},
-      {"bytes", records, nothing,
-       over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
-      {"bytes_per_texel", records, nothing, over_records(&Record::precompute_bytes_per_texel)},
-      {"ndf_l2", of_ndf, a_footprint, over_footprints(&FootprintNdf::l2), "", no_footprint},
-      {"ndf_energy", of_ndf, a_footprint, over_footprints(&FootprintNdf::energy), "", no_footprint},
-      {"ndf_peak", of_ndf, a_footprint, over_footprints(&FootprintNdf::peak), "", no_footprint},
-      {"quantity", {name, scene, size, filter, seed}, a_quantity, add_quantities, "", "the run has no such figure"}};
+  return {{"error", {distance, frame, spp, scene, size, filter, seed}, its_reference, over_records(error_sample)},
+          {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
+          {"relmse", records, nothing, over_errors(&RecordError::relmse)},
+          {"psnr", records, nothing, over_errors(&RecordError::psnr)},
+          {"energy_bias", records, nothing, over_errors(&RecordError::energy_bias)},
+          {"luminance_distance", records, nothing, over_errors(&RecordError::luminance_distance)},
+          {"representation", records, nothing, over_errors(&RecordError::representation)},
+          {"filtering", records, nothing, over_errors(&RecordError::filtering)},
+          {"shading_error", records, nothing, over_records(shading_sample), "no pixel is interior"},
+          {"edge_error", records, nothing, over_causes(&ErrorCauses::edges), "no pixel has an edge"},
+          {"filter_error", records, nothing, over_causes(&ErrorCauses::filter), no_bound},
+          {"method_error", records, nothing, over_causes(&ErrorCauses::method), no_bound},
+          {"light_error", records, nothing, over_causes(&ErrorCauses::light), "there is no environment"},
+          {"interior_pixels", records, nothing,
+           over_records([](const Record& r) { return static_cast<double>(r.pixels.interior); })},
+          {"noise_floor", records, nothing, over_errors(&RecordError::noise_floor)},
+          {"equivalent_spp", records, nothing,
+           over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
+          {"flicker", records, a_zoom, over_records([](const Measure& /*measure*/, const Record& r) {
+             return r.flicker ? Sample{.value = r.flicker->mean, .noise_floor = r.flicker->noise_floor} : Sample{};
+           })},
+          {"flicker_p99", records, a_zoom,
+           over_records([](const Record& r) { return r.flicker ? Figure(r.flicker->p99) : Figure(); })},
+          {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
+          {"fps", records, nothing, over_times(&Record::fps)},
+          {"build", records, nothing, over_times(&Record::frame_build_ms)},
+          {"shading", records, nothing, over_times(shading_ms)},
+          {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
+          {"supersampling_time",
+           {distance, spp, scene, size, filter, seed},
+           a_timed_count,
+           over(&Results::supersampling, supersampling_sample),
+           "",
+           "no such count of samples was timed"},
+          {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
+          {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns), no_estimate},
+          {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions), no_estimate},
+          {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads), no_estimate},
+          {"precompute", records, nothing,
+           over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }),
+           "the bake came from the cache (give --no-cache)"},
+          {"bytes", records, nothing,
+           over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
+          {"bytes_per_texel", records, nothing, over_records(&Record::precompute_bytes_per_texel)},
+          {"ndf_l2", of_ndf, a_footprint, over(&Results::ndf, &FootprintNdf::l2), "", no_footprint},
+          {"ndf_energy", of_ndf, a_footprint, over(&Results::ndf, &FootprintNdf::energy), "", no_footprint},
+          {"ndf_peak", of_ndf, a_footprint, over(&Results::ndf, &FootprintNdf::peak), "", no_footprint},
+          {"quantity",
+           {name, scene, size, filter, seed},
+           a_quantity,
+           over(&Results::quantities, &QuantityFigure::value),
+           "",
+           "the run has no such figure"}};
+}
+
+// Those without a value do not count.
+Measured mean_of(const Measure& measure, std::span<const Sample> samples) {
+  Measured mean;
+  mean.text = measure_text(measure);
+  mean.problem = samples.empty() ? measure.function->none : measure.function->absent;
+  double sum = 0, floors = 0;  // floors: not a number if one is missing
+  std::size_t noisy = 0;
+  for (const Sample& sample : samples) {
+    if (!sample.value) {
+      if (!sample.absent.empty()) mean.problem = sample.absent;
+      continue;
+    }
+    ++mean.records;
+    sum += *sample.value;
+    floors += sample.noise_floor.value_or(NAN);
+    noisy += sample.at_noise_floor ? 1 : 0;
+    if (!sample.node.empty()) mean.nodes.insert(sample.node);
+  }
+  if (mean.records == 0) return mean;
+  mean.at_noise_floor = noisy == mean.records;
+  if (!std::isnan(floors)) mean.noise_floor = floors / static_cast<double>(mean.records);
+  mean.problem = std::isnan(sum) ? "the figure is not a number" : "";
+  if (!std::isnan(sum)) mean.value = sum / static_cast<double>(mean.records);
+  return mean;
 }
 
 // Every value that members are chosen by must be on an axis of the matrix.
@@ -355,11 +330,12 @@ Measured measured(const Measure& measure, std::span<const Results> runs) {
   const std::vector<std::string> methods =
       methods_in_order(runs | std::views::transform(&Results::records) | std::views::join);
   const std::string& method = methods[select_method(measure.method, methods)];
-  Samples samples;
+  std::vector<Sample> samples;
   for (const Results& run : runs) {
-    if (selects(measure, run.coordinates)) measure.function->add(measure, method, run, samples);
+    if (selects(measure, run.coordinates))
+      std::ranges::move(measure.function->samples(measure, method, run), std::back_inserter(samples));
   }
-  return samples.mean(measure);
+  return mean_of(measure, samples);
 }
 
 }  // namespace footprint

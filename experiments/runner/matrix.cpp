@@ -1,5 +1,5 @@
 // Reads axes through the settings that they vary, and multiplies them out.
-#include "experiments/runner/matrix.hpp"
+#include "experiments/runner/experiment.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,6 @@
 #include <array>
 #include <utility>
 
-#include "experiments/runner/experiment.hpp"
-#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
@@ -26,7 +24,9 @@ constexpr std::size_t most_members = 1000, most_methods = 200;
 
 constexpr std::array<std::string_view, 4> varied_keys{"scene", "size", "footprint", "seed"};  // keys of settings
 
-const Setting& setting_of(std::string_view key) { return *std::ranges::find(run_settings(), key, &Setting::key); }
+const Setting& setting_of(std::string_view key) {
+  return *std::ranges::find_if(run_settings(), [&](const Setting& setting) { return setting.key.name == key; });
+}
 
 void set_value(Experiment& experiment, const std::string& key, const std::string& value) {
   setting_of(key).type.read_text(experiment.run, key, value);
@@ -42,7 +42,7 @@ std::string written_by_setting(const std::string& key, const std::string& value)
 }
 
 Axis read_axis(const TomlTable& matrix, const std::string& key) {
-  Axis axis{.key = key, .values = {}};
+  Axis axis{.key = key};
   const std::vector<std::string> values = matrix.words_or_numbers(key).value();
   for (const std::string& written : values) {
     const std::string value = at_key(matrix, key, [&] { return written_by_setting(key, written); });
@@ -161,7 +161,7 @@ bool is_over(const Expression& expression, const std::vector<Coordinates>& membe
 std::vector<std::string> axis_keys(std::string_view table) {
   std::vector<std::string> keys;
   for (const std::string_view key : varied_keys) {
-    if (table.empty() || table == setting_of(key).table) keys.emplace_back(key);
+    if (table.empty() || table == setting_of(key).key.table) keys.emplace_back(key);
   }
   return keys;
 }

@@ -1,6 +1,6 @@
 // [matrix] of an experiment's file: its members, what is said over slices of it, presets, and the one error of a wrong
 // one.
-#include "experiments/runner/matrix.hpp"
+#include "experiments/runner/experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,8 @@
 #include <fstream>
 #include <set>
 
-#include "experiments/runner/experiment.hpp"
 #include "experiments/runner/run_experiment.hpp"
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
 #include "scenes/surfaces/registry.hpp"
 #include "tests/support/fresh_folder.hpp"

@@ -12,11 +12,10 @@
 #include <string>
 #include <utility>
 
-#include "experiments/runner/composed_figure.hpp"
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
-#include "experiments/studies/views.hpp"
+#include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/core/error.hpp"
@@ -332,11 +331,7 @@ ExperimentReport judge(const Experiment& experiment, std::span<const Results> ru
                           .title = experiment.title,
                           .description = experiment.description,
                           .file = experiment.file.string(),
-                          .published = {},
-                          .claims = {},
-                          .second_verdicts = second_verdicts(experiment, runs),
-                          .thresholds = {},
-                          .pictures = {}};
+                          .second_verdicts = second_verdicts(experiment, runs)};
   for (const PublishedValue& published : experiment.published) {
     const Evaluation measured = published.measure.evaluate(runs);
     PublishedFigure& figure = report.published.emplace_back(published.printed);

@@ -32,6 +32,7 @@ inline constexpr std::array<Word<ExposureSource>, 4> exposure_sources{{
     {ExposureSource::command_line, "command line"},
     {ExposureSource::experiment, "experiment"},
 }};
+constexpr const auto& words_of(ExposureSource /*source*/) { return exposure_sources; }
 
 /// A factor on radiance, above 0, and who set it.
 struct Exposure {
@@ -61,6 +62,7 @@ inline constexpr std::array<Word<AnimationPath>, 4> animation_paths{{
     {AnimationPath::light, "light"},
     {AnimationPath::animation, "animation"},
 }};
+constexpr const auto& words_of(AnimationPath /*path*/) { return animation_paths; }
 
 /// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.
 struct PathSettings {
@@ -94,6 +96,9 @@ inline constexpr std::array<Word<BoundUse>, 3> bound_uses{{
     {BoundUse::on, "on"},
     {BoundUse::off, "off"},
 }};
+constexpr const auto& words_of(BoundUse /*use*/) { return bound_uses; }
+constexpr const auto& words_of(Sampling /*sampling*/) { return reference_filters; }
+constexpr const auto& words_of(EnvironmentUse /*use*/) { return reference_integrals; }
 
 /// The reference that errors are measured against.
 struct ReferenceSettings {
@@ -112,12 +117,6 @@ struct ReferenceSettings {
   /// images besides each method's frame.
   bool by_cause = true;
 };
-
-inline constexpr std::array<Word<HistoryClamp>, 3> history_clamps{{
-    {HistoryClamp::off, "off"},
-    {HistoryClamp::box, "box"},
-    {HistoryClamp::variance, "variance"},
-}};
 
 inline constexpr std::array<Word<bool>, 2> switch_words{{{true, "on"}, {false, "off"}}};
 

@@ -1,6 +1,8 @@
-// The settings of a run as users write them: one table for the command line, experiment files, --help and the docs.
+// The settings of a run as users write them: one table for the command line, experiment files, --help and the docs; and
+// its methods: read, checked against those of the program, their figures that no image shows, and their histories.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "methods/registry.hpp"
 
 namespace footprint {
 
@@ -26,11 +29,18 @@ struct SettingType {
   char separator = 0;
 };
 
+/// A key of an experiment's file.
+struct SettingKey {
+  std::string_view table{}, name{};
+
+  [[nodiscard]] bool empty() const { return name.empty(); }
+};
+
 /// A row of the table.
 struct Setting {
   std::string_view option{};  ///< "--method,--methods"; without dashes an argument; empty: in files alone
   std::vector<std::string_view> commands{};  ///< subcommands that have the option
-  std::string_view table{}, key{};           ///< in an experiment's file; empty: on the command line alone
+  SettingKey key{};                          ///< empty: on the command line alone
   SettingType type{};
   std::string_view help{};       ///< a clause in lower case, without a full stop
   std::string_view start{};      ///< default value, as an option takes it; empty: that of RunSettings
@@ -58,5 +68,36 @@ inline constexpr std::string_view experiments_document = "docs/reference/experim
 /// valid, or a required key is missing and not among those `given` elsewhere.
 void read_settings(const TomlTable& table, std::string_view name, RunSettings& run,
                    const std::vector<std::string>& given = {});
+
+/// Comma-separated methods with their options, checked before anything is loaded; those that are files are read
+/// (read_method_file).
+/// folder: where a file's relative path starts.
+/// Errors (usage): unknown method or option, with the nearest name; a file's.
+[[nodiscard]] std::vector<MethodSpec> parse_known_methods(const std::string& text,
+                                                          const std::filesystem::path& folder = {});
+
+/// The methods as they were written.
+[[nodiscard]] std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods);
+
+/// Every method of the program except slow ones (MethodInfo::slow_frame), with its defaults.
+[[nodiscard]] std::vector<MethodSpec> every_method();
+
+/// A method's figure of that name; null where it has none.
+[[nodiscard]] const Quantity* find_quantity(const Method& method, const std::string& name);
+
+/// The names of all figures of some methods, each once.
+[[nodiscard]] std::vector<std::string> quantity_names(std::span<const MethodSpec> methods);
+
+/// Methods, each of which may have options of its own history. Errors (usage): those of parse_known_methods, or a value
+/// that its option does not take.
+[[nodiscard]] std::vector<MethodSpec> parse_methods_with_histories(const std::string& text,
+                                                                   const std::filesystem::path& folder = {});
+
+/// The history of a method's frames.
+/// common: that of the run's methods; options of the method's own replace it.
+[[nodiscard]] HistorySettings history_of(const MethodSpec& method, const HistorySettings& common);
+
+/// The number of a run's methods whose images are histories.
+[[nodiscard]] std::size_t count_histories(const RunSettings& run);
 
 }  // namespace footprint

@@ -16,7 +16,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "experiments/settings/known_methods.hpp"
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/numbers.hpp"
@@ -27,9 +26,9 @@ namespace footprint::setting_types {
 /// The largest side of a frame size, in pixels; memory may limit it further.
 inline constexpr int max_frame_side = 10'000'000;
 
-/// The field of a run's settings that stores a value.
-template <class Value>
-using Field = Value& (*)(RunSettings& run);
+/// The type of the value that a field stores. A field is a function of a run's settings that returns a reference to it.
+template <class Field>
+using ValueOf = std::remove_reference_t<std::invoke_result_t<Field, RunSettings&>>;
 
 /// Reads comma-separated methods, and checks them; files are relative to `folder`.
 using MethodParser = std::vector<MethodSpec> (*)(const std::string& text, const std::filesystem::path& folder);
@@ -181,8 +180,7 @@ std::string written(const Value& value) {
 }
 
 // A value of which `parse(option, text)` makes what the field stores.
-template <class Value, class Parse, class Write>
-SettingType typed(Field<Value> field, std::string word, std::string takes, Parse parse, Write write) {
+SettingType typed(auto field, std::string word, std::string takes, auto parse, auto write) {
   return {.word = std::move(word),
           .takes = std::move(takes),
           .read_text = [=](RunSettings& run, std::string_view option,
@@ -190,9 +188,9 @@ SettingType typed(Field<Value> field, std::string word, std::string takes, Parse
           .text = [=](RunSettings run) { return std::string(write(field(run))); }};
 }
 
-template <class Value, class Parse>
-SettingType typed(Field<Value> field, std::string word, std::string takes, Parse parse) {
-  return typed(field, std::move(word), std::move(takes), parse, written<Value>);
+template <class Field>
+SettingType typed(Field field, std::string word, std::string takes, auto parse) {
+  return typed(field, std::move(word), std::move(takes), parse, written<ValueOf<Field>>);
 }
 
 // The same of a value that is a list in a file, whose parts `separator` joins in a text.
@@ -202,76 +200,59 @@ inline SettingType listed(SettingType type, std::string file_takes, char separat
   return type;
 }
 
-template <class Number>
-SettingType whole_number_of(Field<Number> field, Number low, Number high) {
-  return typed(field, "N", range_text(low, high), std::bind_front(parse_whole_number<Number>, low, high));
-}
-
-template <class Value>
-SettingType positive(Field<Value> field, double low, double high) {
-  return typed(field, "X", fmt::format("{} to {}", low, high), std::bind_front(parse_positive, low, high));
-}
-
 inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
 
 /// Any text.
-[[nodiscard]] inline SettingType any_text(Field<std::string> field, const char* word) {
+[[nodiscard]] SettingType any_text(auto field, const char* word) {
   return typed(field, word, "", [](std::string_view, const std::string& text) { return text; });
 }
 
 /// Any text except an empty one.
-[[nodiscard]] inline SettingType any_name(Field<std::optional<std::string>> field, const char* word) {
+[[nodiscard]] SettingType any_name(auto field, const char* word) {
   return typed(field, word, "", std::bind_front(parse_name, "give a name, or a number from 0"));
 }
 
 /// A file's path.
-[[nodiscard]] inline SettingType file_path(Field<std::optional<std::filesystem::path>> field) {
+[[nodiscard]] SettingType file_path(auto field) {
   return typed(field, "FILE", "", std::bind_front(parse_name, "name a file"));
 }
 
 /// A whole number, both ends inclusive; the type's largest value as `high` means no limit.
-[[nodiscard]] inline SettingType whole_number(Field<int> field, int low, int high) {
-  return whole_number_of(field, low, high);
-}
-
-[[nodiscard]] inline SettingType whole_number(Field<std::uint64_t> field, std::uint64_t low, std::uint64_t high) {
-  return whole_number_of(field, low, high);
+template <class Field>
+[[nodiscard]] SettingType whole_number(Field field, ValueOf<Field> low, ValueOf<Field> high) {
+  return typed(field, "N", range_text(low, high), std::bind_front(parse_whole_number<ValueOf<Field>>, low, high));
 }
 
 /// A list of whole numbers, each within the range.
-[[nodiscard]] inline SettingType whole_numbers(Field<std::vector<int>> field, int low, int high) {
+[[nodiscard]] SettingType whole_numbers(auto field, int low, int high) {
   const auto write = [](const auto& all) { return all.empty() ? "" : fmt::format("[{}]", fmt::join(all, ", ")); };
   return listed(typed(field, "LIST", "", std::bind_front(parse_whole_numbers, low, high), write),
                 fmt::format("a list, each {} to {}", low, high));
 }
 
 /// A number above 0.
-[[nodiscard]] inline SettingType positive_number(Field<std::optional<double>> field, double low, double high) {
-  return positive(field, low, high);
-}
-
-[[nodiscard]] inline SettingType positive_number(Field<double> field, double low, double high) {
-  return positive(field, low, high);
+[[nodiscard]] SettingType positive_number(auto field, double low, double high) {
+  return typed(field, "X", fmt::format("{} to {}", low, high), std::bind_front(parse_positive, low, high));
 }
 
 /// An angle in degrees, in either direction, not 0.
-[[nodiscard]] inline SettingType angle(Field<std::optional<double>> field, double most) {
+[[nodiscard]] SettingType angle(auto field, double most) {
   return typed(field, "DEGREES", fmt::format("-{0} to {0}", most), std::bind_front(parse_angle, most));
 }
 
 /// A moment in seconds, of either sign.
-[[nodiscard]] inline SettingType seconds(Field<std::optional<double>> field) {
+[[nodiscard]] SettingType seconds(auto field) {
   return typed(field, "SECONDS", fmt::format("-{0} to {0}", largest_seconds), parse_seconds);
 }
 
 /// A direction in world space, of any length except 0; stored as a unit vector.
-[[nodiscard]] inline SettingType direction(Field<std::optional<glm::dvec3>> field) {
+[[nodiscard]] SettingType direction(auto field) {
   const auto write = [](const auto& axis) { return axis ? fmt::format("{},{},{}", axis->x, axis->y, axis->z) : ""; };
   return typed(field, "X,Y,Z", "", parse_direction, write);
 }
 
 /// A fixed number of samples per pixel.
-[[nodiscard]] inline SettingType fixed_samples(Field<ReferenceSettings> field, int low, int high) {
+[[nodiscard]] SettingType fixed_samples(auto field, int low, int high) {
   return {.word = "N",
           .takes = range_text(low, high),
           .read_text =
@@ -283,7 +264,7 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 }
 
 /// A target noise floor, or "auto".
-[[nodiscard]] inline SettingType noise(Field<ReferenceSettings> field) {
+[[nodiscard]] SettingType noise(auto field) {
   return {.word = "X",
           .takes = fmt::format("{} to {}, or auto", least_noise, most_noise),
           .read_text =
@@ -301,7 +282,7 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 }
 
 /// Factors on the camera's distance, at most `most`, all different.
-[[nodiscard]] inline SettingType distances(Field<std::vector<double>> field, std::size_t most) {
+[[nodiscard]] SettingType distances(auto field, std::size_t most) {
   const std::string range = fmt::format("{} to {}", smallest_distance, largest_distance);
   const bool is_one = most == 1;
   return listed(typed(field, is_one ? "X" : "LIST", is_one ? range : range + " each, comma-separated",
@@ -310,7 +291,7 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 }
 
 /// A frame size. Errors (machine), for an option only: one image of it exceeds memory.
-[[nodiscard]] inline SettingType frame_size(Field<std::optional<glm::ivec2>> field) {
+[[nodiscard]] SettingType frame_size(auto field) {
   const auto write = [](const auto& size) { return size ? fmt::format("{}x{}", size->x, size->y) : ""; };
   const std::string takes = fmt::format("1 to {} per side, as memory permits", max_frame_side);
   return listed(typed(field, "WIDTHxHEIGHT", takes, parse_size, write),
@@ -318,20 +299,19 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 }
 
 /// A factor on radiance, or "auto" for none.
-[[nodiscard]] inline SettingType exposure(Field<std::optional<Exposure>> field) {
+[[nodiscard]] SettingType exposure(auto field) {
   const auto write = [](const auto& exposure) { return exposure ? fmt::format("{}", exposure->factor) : "auto"; };
   return typed(field, "X", "above 0, or auto", parse_exposure, write);
 }
 
 /// A footprint filter.
-[[nodiscard]] inline SettingType footprint_filter(Field<std::optional<FootprintFilter>> field) {
+[[nodiscard]] SettingType footprint_filter(auto field) {
   const auto write = [](const auto& filter) { return filter ? footprint_filter_text(*filter) : ""; };
   return typed(field, "FILTER", footprint_filter_choices(), parse_filter, write);
 }
 
 /// Methods; in a file also "all".
-[[nodiscard]] inline SettingType methods(Field<std::vector<MethodSpec>> field,
-                                         MethodParser parse = parse_known_methods) {
+[[nodiscard]] SettingType methods(auto field, MethodParser parse = parse_known_methods) {
   return {.word = "LIST",
           .takes = "name, FILE.glsl or name:option=value each, comma-separated",
           .file_takes =
@@ -346,8 +326,7 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 }
 
 /// One method, or `reference`.
-[[nodiscard]] inline SettingType one_method(Field<std::vector<MethodSpec>> field,
-                                            MethodParser parse = parse_known_methods) {
+[[nodiscard]] SettingType one_method(auto field, MethodParser parse = parse_known_methods) {
   return {.word = "M",
           .takes = "name or FILE.glsl, or name:option=value",
           .read_text =
@@ -358,33 +337,31 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 }
 
 /// A set of effects, by name.
-[[nodiscard]] inline SettingType effects(Field<EffectSet> field) {
+[[nodiscard]] SettingType effects(auto field) {
   const auto write = [](const EffectSet& effects) { return joined(effect_names(effects)); };
   return listed(typed(field, "LIST", "as cast_shadow,fresnel", parse_effects, write), R"(a list as ["cast_shadow"])");
 }
 
 /// GPUs whose cost is estimated, by name.
-[[nodiscard]] inline SettingType gpus(Field<std::vector<std::string>> field) {
+[[nodiscard]] SettingType gpus(auto field) {
   const std::string takes = fmt::format("{}, all", fmt::join(chip_names(), ", "));
   return listed(typed(field, "NAME,...", takes, parse_gpus, joined),
                 R"(a list as ["Steam Deck", "RX 6800"], or ["all"])");
 }
 
 /// A flag that unsets a folder.
-[[nodiscard]] inline SettingType no_folder(Field<std::optional<std::filesystem::path>> field) {
+[[nodiscard]] SettingType no_folder(auto field) {
   return typed(
       field, "", "", [](std::string_view, const std::string&) { return std::nullopt; }, [](const auto&) { return ""; });
 }
 
 /// One of some words; `what` names them in errors.
 template <class Value, std::size_t count>
-[[nodiscard]] SettingType one_word(std::type_identity_t<Field<Value>> field,
-                                   const std::array<Word<Value>, count>& words, const char* what) {
-  return {.word = "WORD",
-          .takes = fmt::format("{}", fmt::join(word_names(words), ", ")),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = word_value(words, text, what, option); },
-          .text = [=](RunSettings run) { return std::string(word_for(words, field(run))); }};
+[[nodiscard]] SettingType one_word(auto field, const std::array<Word<Value>, count>& words, const char* what) {
+  return typed(
+      field, "WORD", fmt::format("{}", fmt::join(word_names(words), ", ")),
+      [=](std::string_view option, const std::string& text) { return word_value(words, text, what, option); },
+      [=](const Value& value) { return word_for(words, value); });
 }
 
 }  // namespace footprint::setting_types

@@ -41,8 +41,8 @@ std::string table_of_keys() {
   std::string text = "| table | key | takes | default | meaning |\n|---|---|---|---|---|\n";
   for (const std::string_view table : {"experiment", "zoom", "reference"}) {
     for (const Setting& setting : run_settings()) {
-      if (setting.key.empty() || setting.table != table) continue;
-      text += fmt::format("| `[{}]` | `{}` | {} | {} | {} |\n", table, setting.key,
+      if (setting.key.empty() || setting.key.table != table) continue;
+      text += fmt::format("| `[{}]` | `{}` | {} | {} | {} |\n", table, setting.key.name,
                           setting.type.file_takes.empty() ? setting.type.takes : setting.type.file_takes,
                           default_cell(setting), setting.help);
     }
@@ -69,7 +69,7 @@ TEST(SettingsDocs, EveryKeyIsShown) {
   const std::string shown = table_of_keys();
   for (const Setting& setting : run_settings()) {
     if (setting.key.empty()) continue;
-    EXPECT_NE(shown.find(fmt::format("`{}` |", setting.key)), std::string::npos) << setting.key;
+    EXPECT_NE(shown.find(fmt::format("`{}` |", setting.key.name)), std::string::npos) << setting.key.name;
   }
 }
 

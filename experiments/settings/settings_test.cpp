@@ -135,13 +135,14 @@ TEST(SettingsTable, EveryRowIsWhole) {
   std::set<std::pair<std::string_view, std::string_view>> seen;
   for (const Setting& setting : run_settings()) {
     const std::string row =
-        std::string(setting.option) + " [" + std::string(setting.table) + "] " + std::string(setting.key);
+        std::string(setting.option) + " [" + std::string(setting.key.table) + "] " + std::string(setting.key.name);
     EXPECT_FALSE(setting.help.empty()) << row;
     EXPECT_EQ(setting.option.empty(), setting.commands.empty()) << row;
-    EXPECT_EQ(setting.table.empty(), setting.key.empty()) << row;
+    EXPECT_EQ(setting.key.table.empty(), setting.key.empty()) << row;
     EXPECT_FALSE(setting.option.empty() && setting.key.empty()) << row;
     EXPECT_TRUE(setting.type.read_text) << row;
-    EXPECT_TRUE(setting.key.empty() || seen.emplace(setting.table, setting.key).second) << row << " is there twice";
+    EXPECT_TRUE(setting.key.empty() || seen.emplace(setting.key.table, setting.key.name).second)
+        << row << " is there twice";
     for (const std::string_view command : setting.commands) {
       EXPECT_TRUE(seen.emplace(command, option_name(setting)).second) << command << " has " << row << " twice";
     }

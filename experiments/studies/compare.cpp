@@ -6,17 +6,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
 #include <utility>
 
-#include "experiments/settings/known_methods.hpp"
-#include "experiments/studies/finished_work.hpp"
-#include "experiments/studies/frame_times.hpp"
+#include "experiments/settings/setting.hpp"
 #include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
-#include "experiments/studies/reference_view.hpp"
-#include "experiments/studies/stage.hpp"
-#include "experiments/studies/views.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 
@@ -134,7 +128,7 @@ struct Job {
 // The frame before, against which flicker is measured.
 struct FrameBefore {
   ReferenceView target;
-  std::vector<Image> images;  // of each method; empty: it failed
+  std::vector<Image> images{};  // of each method; empty: it failed
 };
 
 // ---- finished views
@@ -179,8 +173,8 @@ std::optional<DistanceResult> finished_view(const Job& job, std::size_t i) {
   });
   if (any_failed && !job.context.finished->is_complete()) return {};
   for (Record& record : result->records) record.frame = static_cast<int>(i);
-  if (result->wanted_noise && job.context.shared != nullptr)
-    job.context.shared->references.wanted_noise.emplace(job.views[i], *result->wanted_noise);
+  if (result->work.wanted_noise && job.context.shared != nullptr)
+    job.context.shared->references.wanted_noise.emplace(job.views[i], *result->work.wanted_noise);
   return result;
 }
 
@@ -258,7 +252,7 @@ DistanceTimes time_view(Job& job, std::size_t i) {
 // The frame before again. finished: its images are read from there; null: they are rendered.
 FrameBefore frame_again(Job& job, std::size_t index, float exposure, const DistanceResult* finished) {
   Workbench& bench = job.workbench();
-  FrameBefore before{.target = bench.references.render(index, job.views[index], exposure), .images = {}};
+  FrameBefore before{.target = bench.references.render(index, job.views[index], exposure)};
   for (std::size_t m = 0; m < job.settings.methods.size(); ++m) {
     Image& image = before.images.emplace_back();
     const StagedMethod& staged = bench.stage.methods()[m];
@@ -304,18 +298,15 @@ DistanceResult measure_images(Job& job, std::size_t i, const Exposure& exposure,
   const RunSettings& settings = job.settings;
   ReferenceView target = job.workbench().references.find(i, job.views[i], exposure.factor);
   if (job.context.watch) job.context.watch(noise_records(settings, target));
-  DistanceResult result{.distance = target.at.distance,
-                        .exposure = exposure,
-                        .wanted_noise = target.wanted_noise,
-                        .standard_error = relative_standard_error(target.reference),
-                        .samples = target.samples,
-                        .seconds = target.seconds,
-                        .reference = target.files.reference,
-                        .unresolved = set_pixels(target.unresolved),
-                        .records = std::vector<Record>(settings.methods.size()),
-                        .pairs = {},
-                        .curve = target.curve,
-                        .warnings = target.warnings};
+  DistanceResult result{
+      .distance = target.at.distance,
+      .exposure = exposure,
+      .work = {target.wanted_noise, relative_standard_error(target.reference), target.samples, target.seconds},
+      .reference = target.files.reference,
+      .unresolved = set_pixels(target.unresolved),
+      .records = std::vector<Record>(settings.methods.size()),
+      .curve = target.curve,
+      .warnings = target.warnings};
   std::vector<Image> images;
   for (std::size_t m = 0; m < settings.methods.size(); ++m)
     images.push_back(measure_or_fail(job, target, m, exposure.factor, result.records[m]));
@@ -386,7 +377,7 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
 
 std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& scene) {
   if (!is_animation(settings)) return {};
-  AnimationWay way{.path = std::string(word_for(animation_paths, *settings.path.kind)), .axis = {}};
+  AnimationWay way{.path = std::string(word_for(animation_paths, *settings.path.kind))};
   if (settings.path.kind != AnimationPath::orbit && settings.path.kind != AnimationPath::light) return way;
   const glm::dvec3 axis = turning_axis(settings.path, scene);
   way.axis = {axis.x, axis.y, axis.z};
@@ -407,16 +398,16 @@ ComparisonHead head_of(Job& job) {
   if (auto finished = job.find<ComparisonHead>("head")) return std::move(*finished);
   const Stage& stage = job.workbench().stage;
   const RunSettings& settings = job.settings;
-  ComparisonHead head{.backend = backend_info(stage.context().info()),
-                      .scene = stage.info(),
-                      .reference = reference_of(settings, stage.effects()),
-                      .footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded())),
-                      .way = way_of(settings, stage.scene()),
+  ComparisonHead head{.results = {},
                       .frames = static_cast<std::size_t>(settings.view.zoom.frames),
-                      .timed_frames = settings.timing.repeats,
-                      .error_scale = settings.view.error_scale,
-                      .first_warnings = job.workbench().references.warnings(),
-                      .last_warnings = {}};
+                      .error_scale = settings.view.error_scale};
+  head.results.backend = backend_info(stage.context().info());
+  head.results.scene = stage.info();
+  head.results.reference = reference_of(settings, stage.effects());
+  head.results.footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded()));
+  head.results.timing.frames = settings.timing.repeats;
+  head.results.way = way_of(settings, stage.scene());
+  std::ranges::copy(job.workbench().references.warnings(), std::back_inserter(head.results.scene.warnings));
   const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
   if (left_out.any())
     head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as requested: {}",

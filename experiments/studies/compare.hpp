@@ -39,8 +39,8 @@ using ResultsWatch = std::function<void(const Results& results)>;
 struct SharedWork {
   std::shared_ptr<PreparedScene> scene;
   std::string content;  ///< scene_content, taken before the scene was prepared
-  SharedReferences references;
-  std::string first;  ///< fingerprint of the first comparison, on whose methods the references depend
+  SharedReferences references = {};
+  std::string first = {};  ///< fingerprint of the first comparison, on whose methods the references depend
 };
 
 /// The context of a comparison besides its settings. Everything is optional.

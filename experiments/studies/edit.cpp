@@ -16,10 +16,8 @@
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
-#include "renderer/core/progress.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/lobes/lobe.hpp"
-#include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -27,6 +25,22 @@
 
 namespace footprint {
 namespace {
+
+constexpr const char* brdf_kind = "brdf";  // of a sweep over the base BRDF
+// Its values are MERL files; between them it is the share of the second, 0 to 1.
+constexpr const char* measured_parameter = "measured";
+
+const std::vector<OptionSpec>& brdf_parameters() {
+  static const std::vector<OptionSpec> parameters{
+      number_option("roughness", 0.5, 0.0, 1.0, "perceptual roughness; alpha is its square"),
+      number_option("exponent", 64.0, 1e-3, 1e6, "exponent of blinn_phong"),
+      number_option("alpha", 0.25, smallest_alpha, 1.0, "alpha of beckmann and ggx"),
+      number_option("kappa", 64.0, 1e-3, 1e6, "concentration of vmf"),
+      number_option("specular", 0.04, 0.0, 1.0, "reflectance of dielectrics at normal incidence, all channels"),
+      number_option("metallic", 0.0, 0.0, 1.0, "metalness"),
+      number_option(measured_parameter, 0.0, 0.0, 1.0, "share of the second of two MERL files")};
+  return parameters;
+}
 
 const std::vector<OptionSpec>& parameters_of(const std::string& kind) {
   return kind == brdf_kind ? brdf_parameters() : find_patch_kind(kind).parameters;
@@ -188,12 +202,8 @@ class Editor {
 
   void add_frame(int frame) {
     const Progress progress = parts_.next(1, fmt::format("frame {} of {}: ", frame + 1, settings_.frames));
-    EditRecord record{.frame = frame,
-                      .parameters = values_at(settings_.sweeps, edited_, frame, settings_.frames),
-                      .stages = {},
-                      .bytes = 0,
-                      .notes = {},
-                      .image = {}};
+    EditRecord record{
+        .frame = frame, .parameters = values_at(settings_.sweeps, edited_, frame, settings_.frames), .bytes = 0};
     progress("geometry", 0.0);
     if (edited_ != brdf_kind)
       record.stages.push_back({"geometry", seconds_of([&] { change_geometry(record.parameters); })});
@@ -339,18 +349,6 @@ void set(const std::string& parameter, float value, const MeasuredPair* tables, 
 }
 
 }  // namespace
-
-const std::vector<OptionSpec>& brdf_parameters() {
-  static const std::vector<OptionSpec> parameters{
-      number_option("roughness", 0.5, 0.0, 1.0, "perceptual roughness; alpha is its square"),
-      number_option("exponent", 64.0, 1e-3, 1e6, "exponent of blinn_phong"),
-      number_option("alpha", 0.25, smallest_alpha, 1.0, "alpha of beckmann and ggx"),
-      number_option("kappa", 64.0, 1e-3, 1e6, "concentration of vmf"),
-      number_option("specular", 0.04, 0.0, 1.0, "reflectance of dielectrics at normal incidence, all channels"),
-      number_option("metallic", 0.0, 0.0, 1.0, "metalness"),
-      number_option(measured_parameter, 0.0, 0.0, 1.0, "share of the second of two MERL files")};
-  return parameters;
-}
 
 void set_brdf(const std::map<std::string, std::string>& values, const MeasuredPair* tables, Scene& scene) {
   for (Material& material : scene.materials) {

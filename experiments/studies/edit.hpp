@@ -40,9 +40,9 @@ void check_sweeps(std::span<const ParameterSweep> sweeps, const PatchKind* kind)
 
 /// The settings of `footprint edit`.
 struct EditSettings {
-  RunSettings run;                     ///< with one method; ignores reference, timing and cache
-  std::vector<ParameterSweep> sweeps;  ///< one or more
-  int frames = 10;                     ///< 1 or more
+  RunSettings run;                          ///< with one method; ignores reference, timing and cache
+  std::vector<ParameterSweep> sweeps = {};  ///< one or more
+  int frames = 10;                          ///< 1 or more
 };
 
 /// Renders frame by frame and writes FOLDER/images/METHOD_NNNN, .exr and .png. Nothing is taken from a cache: a frame's
@@ -53,22 +53,13 @@ struct EditSettings {
 [[nodiscard]] EditRun run_edit(const EditSettings& settings, const std::filesystem::path& folder,
                                const Progress& progress);
 
-/// The kind of a sweep over the base BRDF.
-inline constexpr const char* brdf_kind = "brdf";
-
-/// The parameter whose values are MERL files; between them it is the share of the second, 0 to 1.
-inline constexpr const char* measured_parameter = "measured";
-
-/// roughness, exponent, alpha, kappa, specular, metallic, and the share of the second measured table.
-[[nodiscard]] const std::vector<OptionSpec>& brdf_parameters();
-
 /// The two tables between which an edit goes.
 struct MeasuredPair {
   TabulatedBrdf from, to;
 };
 
 /// Sets parameters of the base BRDF of all materials.
-/// values: by name, as brdf_parameters() takes them.
+/// values: by name: roughness, exponent, alpha, kappa, specular, metallic, and the share of the second measured table.
 /// tables: needed for `measured` alone; else null.
 /// Errors (usage): a parameter that a material does not have: another distribution, a value from a map, lobes of its
 /// own, or `measured` without small-scale geometry.

@@ -120,7 +120,7 @@ TEST(ErrorNoise, IsTheSpreadOverReferences) {
     Image reference = halves.first;
     for (std::size_t t = 0; t < reference.texels.size(); ++t)
       reference.texels[t] = 0.5F * (halves.first.texels[t] + halves.second.texels[t]);
-    const double error = normalized_color_over(picture, reference, 1.0F, mask).value();
+    const double error = normalized_color(picture, reference, 1.0F, mask).value();
     sum += error;
     squares += error * error;
     estimate += error_noise(picture, halves, 1.0F, mask).value() / references;

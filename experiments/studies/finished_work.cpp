@@ -1,5 +1,5 @@
 // Parts as JSON under a checksum; files are hard links where the file system allows them. Structured bindings list
-// every setting for the fingerprint, so a new one does not compile until it is considered here. Views are joined: their
+// the settings for the fingerprint, so a new one does not compile until it is considered here. Views are joined: their
 // records in order, the worst of their errors, and all warnings.
 #include "experiments/studies/finished_work.hpp"
 
@@ -14,11 +14,10 @@
 
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
-#include "experiments/studies/views.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/files.hpp"
-#include "results/report/ranking.hpp"
+#include "results/report/figures.hpp"
 
 namespace footprint {
 namespace {
@@ -69,39 +68,19 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
   if (failed) write_file_atomically(to, read_file_bytes(from, largest_file));
 }
 
-// Without a number, `word`.
-std::string number_or(const std::optional<double>& value, const char* word) {
-  return value ? fmt::format("{}", *value) : word;
-}
-
-std::string filter_or(const std::optional<FootprintFilter>& filter, const char* word) {
-  return filter ? footprint_filter_text(*filter) : word;
-}
+void add(ContentHash& hash, const auto& value) { hash.add(to_json_value(value).dump()); }
 
 // A distance does not depend on the others, except for the first, which decides an automatic exposure, and for the
 // frame before it in a zoom.
 void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene) {
   const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
-  const glm::ivec2 pixels = frame_size(scene, size);
-  hash.add(fmt::format("{}x{}", pixels.x, pixels.y));
-  const std::vector<RunView> all = run_views(settings, scene);
-  for (const RunView& view : std::span(all).first(zoom.frames > 0 ? all.size() : 1))
-    hash.add(fmt::format("{} {} {}", view.distance, view.degrees, view.seconds));
-  hash.add(exposure ? fmt::format("{} {}", exposure->factor, static_cast<int>(exposure->source)) : "default");
-  hash.add(fmt::format("{} {}", zoom.frames, number_or(error_scale, "auto")));
   const auto& [kind, degrees, axis, until] = settings.path;
-  hash.add(fmt::format("{} {} {}", kind ? static_cast<int>(*kind) : -1, number_or(degrees, "default"),
-                       number_or(until, "default")));
-  if (axis) hash.add(fmt::format("{} {} {}", axis->x, axis->y, axis->z));
-}
-
-void add_reference(ContentHash& hash, const ReferenceSettings& reference) {
-  const auto& [spp, by_noise, fixed_spp, noise, spp_max, other_spp, supersampling, seed, filter, environment, bound,
-               by_cause] = reference;
-  hash.add(fmt::format("{} {} {} {} {}", spp, by_noise, fixed_spp, number_or(noise, "auto"), spp_max));
-  hash.add(fmt::format("{} / {}", fmt::join(other_spp, " "), fmt::join(supersampling, " ")));
-  hash.add(fmt::format("{} {} {} {} {}", seed, static_cast<int>(filter), static_cast<int>(environment),
-                       static_cast<int>(bound), by_cause));
+  const glm::ivec2 pixels = frame_size(scene, size);
+  const glm::dvec3 turned = axis.value_or(glm::dvec3(0.0));
+  const std::vector<RunView> all = run_views(settings, scene);
+  for (const RunView& view : std::span(all).first(zoom.frames > 0 ? all.size() : 1)) add(hash, view);
+  add(hash, std::tuple(pixels.x, pixels.y, exposure, zoom.frames, error_scale));
+  add(hash, std::tuple(kind, degrees, until, turned.x, turned.y, turned.z));
 }
 
 void append(std::vector<std::string>& texts, const std::vector<std::string>& more) {
@@ -115,14 +94,14 @@ std::vector<std::string> warnings_of(const DistanceResult& result) {
       warnings.push_back(fmt::format("distance {:g}: {} failed: {}", record.distance, record.method, *record.failure));
   }
   append(warnings, result.warnings);
-  if (auto warning = linear_measures_warning(result.distance, result.standard_error))
+  if (auto warning = linear_measures_warning(result.distance, result.work.standard_error))
     warnings.push_back(std::move(*warning));
   return warnings;
 }
 
 // The scales of false-colour images, which an animation has none of.
 void set_error_scales(Results& results, const ComparisonHead& head, const std::vector<DistanceResult>& views) {
-  if (head.way) return;
+  if (results.way) return;
   double largest_error = 0;
   for (const DistanceResult& result : views) {
     largest_error = std::max(largest_error, result.largest_error);
@@ -229,13 +208,12 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
     hash.add(method.text);
     if (method.file) hash.add(method.file->file_content);
   }
-  hash.add(fmt::format("{}", fmt::join(settings.gpus, ",")));
+  add(hash, settings.gpus);
   add_view(hash, settings, scene);
-  add_reference(hash, settings.reference);
-  const auto& [frames, alpha, clamp, jitter] = settings.history;
-  if (frames > 0) hash.add(fmt::format("history {} {} {} {}", frames, alpha, word_for(history_clamps, clamp), jitter));
+  add(hash, settings.reference);
+  if (settings.history.frames > 0) add(hash, settings.history);
   const auto& [repeats, processes, unit] = settings.timing;
-  hash.add(fmt::format("{} {} {}", repeats, processes, filter_or(unit, "the methods'")));
+  hash.add(fmt::format("{} {} {}", repeats, processes, unit ? footprint_filter_text(*unit) : "the methods'"));
   for (const std::string& text : more) hash.add(text);
   return hash.hex();
 }
@@ -243,25 +221,19 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
 std::string frame_name(std::size_t index) { return fmt::format("frame_{:04}", index); }
 
 Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>& views) {
-  Results results;
-  results.backend = head.backend;
-  results.scene = head.scene;
-  results.footprint = head.footprint;
-  results.way = head.way;
+  Results results = head.results;
   const Exposure& exposure = views.front().exposure;
   results.scene.exposure = exposure.factor;
   results.scene.exposure_source = word_for(exposure_sources, exposure.source);
-  results.reference = head.reference;
-  results.timing = {.frames = head.timed_frames, .processes = views.back().processes};
-  append(results.scene.warnings, head.first_warnings);
+  results.timing.processes = views.back().processes;
   for (const DistanceResult& result : views) {
-    results.reference.standard_errors.push_back(result.standard_error);
-    results.reference.samples += result.samples;
-    results.reference.seconds += result.seconds;
+    results.reference.standard_errors.push_back(result.work.standard_error);
+    results.reference.samples += result.work.samples;
+    results.reference.seconds += result.work.seconds;
     std::ranges::copy(result.records, std::back_inserter(results.records));
     std::ranges::copy(result.pairs, std::back_inserter(results.pairs));
     std::ranges::copy(result.curve, std::back_inserter(results.supersampling));
-    if (!head.way) append(results.scene.warnings, warnings_of(result));  // ranking_warnings has one for all frames
+    if (!results.way) append(results.scene.warnings, warnings_of(result));  // ranking_warnings has one for all frames
   }
   append(results.scene.warnings, head.last_warnings);
   results.reference.samples /= static_cast<double>(views.size());

@@ -12,9 +12,9 @@
 #include <memory>
 #include <set>
 
+#include "experiments/studies/reference_view.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/history.hpp"
 #include "renderer/pipeline/sample_sequence.hpp"
 #include "renderer/pipeline/timing.hpp"
 
@@ -239,10 +239,10 @@ Image FrameMean::mean() const {
 }
 
 std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
-                                               const ErrorTarget& target, ProgressParts& progress) {
+                                               const ReferenceView& target, float exposure, ProgressParts& progress) {
   if (settings.supersampling.empty() || stage.methods()[stage.unit()].refusal()) return {};
   const View& view = target.view;
-  const std::string prefix = fmt::format("distance {:g}: ", target.distance);
+  const std::string prefix = fmt::format("distance {:g}: ", target.at.distance);
   const std::span<const int> counts = settings.supersampling;
   const std::vector<glm::dvec2> offsets = frame_offsets(most_frames(counts), settings.seed ^ curve_seed);
   const std::map<int, Image> pictures =
@@ -253,10 +253,10 @@ std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const Referen
   for (const int spp : counts) {
     const Image& picture = pictures.at(spp);
     const int timed = timed_frames(spp);
-    curve.push_back({.distance = target.distance,
+    curve.push_back({.distance = target.at.distance,
                      .spp = spp,
-                     .normalized_color = normalized_color(picture, target.reference, target.exposure),
-                     .shading = normalized_color_over(picture, target.reference, target.exposure, target.interior),
+                     .normalized_color = normalized_color(picture, target.reference.mean, exposure),
+                     .shading = normalized_color(picture, target.reference.mean, exposure, target.parts.interior),
                      .ms = ms.at(timed) * spp / timed,
                      .node = host_name()});
   }

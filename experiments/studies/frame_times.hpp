@@ -17,6 +17,8 @@
 
 namespace footprint {
 
+struct ReferenceView;
+
 /// Frame times of one process at one distance: [candidate][repeat], milliseconds; first the
 /// stage's methods (whole frames), then the frame builds alone of those that have one, in the same order.
 using DistanceTimes = std::vector<std::vector<double>>;
@@ -92,18 +94,10 @@ class FrameMean {
   std::vector<double> sums_;
 };
 
-/// The reference of errors in one view.
-struct ErrorTarget {
-  const View& view;
-  double distance;         ///< its name in the curve
-  const Image& reference;  ///< RGBA
-  const Image& interior;   ///< a mask
-  float exposure = 1;
-};
-
 /// A point for each count of frames that the settings name. The stage's first method is `direct`.
 [[nodiscard]] std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
-                                                             const ErrorTarget& target, ProgressParts& progress);
+                                                             const ReferenceView& target, float exposure,
+                                                             ProgressParts& progress);
 
 /// The curve's weight in progress, in samples per pixel.
 [[nodiscard]] double curve_weight(std::span<const int> counts);

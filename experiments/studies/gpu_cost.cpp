@@ -5,9 +5,7 @@
 
 #include <algorithm>
 
-#include "experiments/studies/stage.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/gpu_cost/estimate.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -145,8 +143,7 @@ GpuCosts::GpuCosts(const Stage& stage, const std::vector<std::string>& gpus, Gpu
     compiler_ = outcomes.device.substr(0, outcomes.device.rfind(' '));
     chips_.push_back({.chip = chip,
                       .failure = outcome.failure,
-                      .between_descriptors = outcome.stage ? descriptor_bytes(outcome.stage->code) : 0,
-                      .compiled = {}});
+                      .between_descriptors = outcome.stage ? descriptor_bytes(outcome.stage->code) : 0});
   }
 }
 

@@ -54,7 +54,7 @@ class GpuCosts {
     const Chip* chip;
     std::string failure;  // why nothing can be compiled for it, or empty
     int between_descriptors;
-    std::map<CostedProgram, CompileOutcome> compiled;
+    std::map<CostedProgram, CompileOutcome> compiled = {};
   };
   void compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress);
   [[nodiscard]] MethodCosts own_costs(const StagedMethod& method, const View& view, const Progress& progress);

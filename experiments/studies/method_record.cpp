@@ -5,16 +5,18 @@
 #include <fmt/format.h>
 
 #include "experiments/studies/picture_files.hpp"
-#include "experiments/studies/reference_view.hpp"
 #include "experiments/studies/score.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/supersample.hpp"
-#include "results/report/ranking.hpp"
+#include "results/report/figures.hpp"
 
 namespace footprint {
 namespace {
+
+// More methods have no pairs: 861 images of 42 methods took longer than all that a distance measures.
+constexpr std::size_t most_methods_in_pairs = 24;
 
 // bound: of the footprint filter; null where there is none, as of a history.
 ErrorCauses causes_of(const ReferenceView& target, const BoundPicture* bound, const Image& picture, float exposure) {
@@ -67,14 +69,6 @@ void set_error(Record& record, const ReferenceView& target, const Image& frame, 
   record.other_references = errors_against_others(target, frame, exposure);
 }
 
-std::optional<HistoryInfo> info_of(const HistorySettings& history) {
-  if (history.frames == 0) return {};
-  return HistoryInfo{.frames = history.frames,
-                     .alpha = history.alpha,
-                     .clamp = std::string(word_for(history_clamps, history.clamp)),
-                     .jitter = history.jitter};
-}
-
 Image in_both(Image first, const Image& second) {
   std::ranges::transform(first.texels, second.texels, first.texels.begin(), std::multiplies<>());
   return first;
@@ -83,11 +77,6 @@ Image in_both(Image first, const Image& second) {
 Image without(Image mask, const Image& left_out) {
   std::ranges::transform(mask.texels, left_out.texels, mask.texels.begin(), std::minus<>());
   return mask;
-}
-
-std::optional<PartFlicker> part_of(const std::optional<FlickerFigures>& figures) {
-  if (!figures) return {};
-  return PartFlicker{.mean = figures->mean, .p99 = figures->p99};
 }
 
 std::string write_verdicts(const std::filesystem::path& folder, const std::string& stem, const Image& verdicts,
@@ -106,32 +95,13 @@ std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, con
   return shares;
 }
 
-}  // namespace
-
-Record MethodMeasurer::failed(const StagedMethod& method, const ReferenceView& target, const Error& why) const {
-  Record record = described(method, target);
-  record.failure = why.what();
-  return record;
-}
-
-Record MethodMeasurer::measure(const StagedMethod& method, const Image& frame, const std::optional<Image>& finest,
-                               const ReferenceView& target, float exposure) {
-  Record record = described(method, target);
-  set_error(record, target, frame, finest, exposure);
-  if (record.equivalent && &method == &stage_.methods()[stage_.unit()])
-    record.equivalent = EquivalentSamples{.spp = 1, .side = CurveSide::within};  // a sample is one of its frames
-  if (finest) set_light_error(record, target, frame, method, exposure);
-  set_material_errors(record, target, frame, method, exposure);
-  return record;
-}
-
-void MethodMeasurer::set_material_errors(Record& record, const ReferenceView& target, const Image& picture,
-                                         const StagedMethod& method, float exposure) const {
+void set_material_errors(Record& record, const Stage& stage, const ReferenceView& target, const Image& picture,
+                         const StagedMethod& method, float exposure) {
   for (std::size_t i = 0; i < target.materials.size(); ++i) {
     const Image& mask = target.materials[i];
     const Image& reference = target.reference.mean;
     MaterialError& error = record.materials.emplace_back();
-    error.material = stage_.scene().materials[i].name;
+    error.material = stage.scene().materials[i].name;
     error.pixels = pixel_count(mask);
     error.bytes = byte_count(method.baked().materials[i]);
     error.shading = error_between(picture, reference, reference, exposure, mask);
@@ -139,14 +109,14 @@ void MethodMeasurer::set_material_errors(Record& record, const ReferenceView& ta
   }
 }
 
-Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView& target) const {
+Record described(const Stage& stage, const StagedMethod& method, const ReferenceView& target) {
   const BakedMethod& baked = method.baked();
   const EffectSet& honours = baked.method->info.honours;
   Record record;
-  record.scene = stage_.scene().name;
+  record.scene = stage.scene().name;
   record.method = method.text();
   record.options = {baked.options.all().begin(), baked.options.all().end()};
-  record.history = info_of(method.history());
+  if (method.history().frames > 0) record.history = method.history();
   record.distance = target.at.distance;
   record.degrees = target.at.degrees;
   record.seconds = target.at.seconds;
@@ -159,9 +129,28 @@ Record MethodMeasurer::described(const StagedMethod& method, const ReferenceView
   if (baked.texels > 0)
     record.precompute_bytes_per_texel = static_cast<double>(baked.bytes) / static_cast<double>(baked.texels);
   record.precompute_cached = baked.cached;
-  record.effects_on = effect_names(stage_.effects() & honours);
-  record.effects_left_out = effect_names(stage_.effects() & ~honours);
+  record.effects_on = effect_names(stage.effects() & honours);
+  record.effects_left_out = effect_names(stage.effects() & ~honours);
   record.images = target.files;
+  return record;
+}
+
+}  // namespace
+
+Record MethodMeasurer::failed(const StagedMethod& method, const ReferenceView& target, const Error& why) const {
+  Record record = described(stage_, method, target);
+  record.failure = why.what();
+  return record;
+}
+
+Record MethodMeasurer::measure(const StagedMethod& method, const Image& frame, const std::optional<Image>& finest,
+                               const ReferenceView& target, float exposure) {
+  Record record = described(stage_, method, target);
+  set_error(record, target, frame, finest, exposure);
+  if (record.equivalent && &method == &stage_.methods()[stage_.unit()])
+    record.equivalent = EquivalentSamples{.spp = 1, .side = CurveSide::within};  // a sample is one of its frames
+  if (finest) set_light_error(record, target, frame, method, exposure);
+  set_material_errors(record, stage_, target, frame, method, exposure);
   return record;
 }
 
@@ -194,16 +183,16 @@ FlickerCauses flicker_causes(const Image& before, const Image& picture, const Re
   const Image interior = in_both(target_before.parts.interior, target.parts.interior);
   const Image edges = without(object_pixels(reference), interior);
   const auto over = [&](const Image& mask) {
-    return part_of(compare_changes_over(before, picture, old_reference, reference, exposure, mask));
+    return compare_changes(before, picture, old_reference, reference, exposure, mask);
   };
-  FlickerCauses causes{.shading = over(interior), .edges = over(edges), .filter = {}, .method = {}};
+  FlickerCauses causes{.shading = over(interior), .edges = over(edges)};
   if (!target_before.bound || !target.bound) return causes;
   const Image pixels = in_both(target_before.bound->pixels, target.bound->pixels);
   const Image& old_bound = target_before.bound->picture;
   const Image& bound = target.bound->picture;
-  causes.filter = part_of(compare_changes_over(old_bound, bound, old_reference, reference, exposure, pixels));
-  causes.method = part_of(compare_changes_over(before, picture, as_reference(old_bound, old_reference),
-                                               as_reference(bound, reference), exposure, pixels));
+  causes.filter = compare_changes(old_bound, bound, old_reference, reference, exposure, pixels);
+  causes.method = compare_changes(before, picture, as_reference(old_bound, old_reference),
+                                  as_reference(bound, reference), exposure, pixels);
   return causes;
 }
 

@@ -36,12 +36,8 @@ class MethodMeasurer {
   void count_work(Record& record, const StagedMethod& method, const View& view);
 
  private:
-  [[nodiscard]] Record described(const StagedMethod& method, const ReferenceView& target) const;
   void set_light_error(Record& record, const ReferenceView& target, const Image& picture, const StagedMethod& method,
                        float exposure);
-
-  void set_material_errors(Record& record, const ReferenceView& target, const Image& picture,
-                           const StagedMethod& method, float exposure) const;
 
   const Stage& stage_;
   std::map<const StagedMethod*, FrameRenderer> dense_frames_;  // of a scene with an environment
@@ -53,11 +49,8 @@ class MethodMeasurer {
                                            const ReferenceView& target_before, const ReferenceView& target,
                                            float exposure);
 
-/// More methods have no pairs: 861 images of 42 methods took longer than all that a distance measures.
-constexpr std::size_t most_methods_in_pairs = 24;
-
 /// One entry for every two methods of one distance, with its image in FOLDER/images; empty if the reference's noise is
-/// unknown, no pixel is interior, or there are more than most_methods_in_pairs.
+/// unknown, no pixel is interior, or there are more than 24 methods.
 /// records, images, names: of each method; a failed method has no image. `names` are parts of file names.
 [[nodiscard]] std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder,
                                                     std::span<const Record> records, std::span<const Image> images,

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <span>
 
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
@@ -19,7 +19,6 @@
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/pixel_script.hpp"
-#include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"

@@ -35,7 +35,7 @@ struct NdfSource {
 /// The settings of `footprint ndf`.
 struct NdfSettings {
   RunSettings run;  ///< no methods: every method of the registry that takes the material; a tile is one of directions
-  FootprintRect footprint;
+  FootprintRect footprint = {};
   int resolution = 0;  ///< rings of directions; 0: from the narrowest lobe
   int picture = 256;   ///< side of the pictures, pixels
 };

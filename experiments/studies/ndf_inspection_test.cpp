@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/test_scenes.hpp"
 

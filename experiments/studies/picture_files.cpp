@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iterator>
 #include <utility>
-#include <vector>
 
 #include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/score.hpp"
@@ -133,7 +132,7 @@ void write_error_images(const std::filesystem::path& folder, DistanceResult& res
   const Image seen_reference = seen(read_back(folder, result.reference), result.exposure.factor);
   Strip pictures, errors;
   pictures.add(to_display(read_back(folder, result.reference), result.exposure.factor),
-               fmt::format("reference, {:.0f} spp", result.samples));
+               fmt::format("reference, {:.0f} spp", result.work.samples));
   for (Record& record : result.records) {
     if (record.failure) continue;
     const Image picture = read_back(folder, record.images.color);

@@ -1,5 +1,5 @@
 // Reads the maps on the CPU: no context is made.
-#include "experiments/studies/quick_advice.hpp"
+#include "experiments/studies/recommend.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -104,6 +104,7 @@ MaterialAdvice advice_of(const Material& material, const QuickAdvice& advice, co
   }
   std::ranges::stable_sort(own.candidates, {}, [](const Candidate& c) { return c.cost.median; });
   own.choice = choose(own.candidates, advice.limits);
+  own.words = advice_sentences(own, advice.limits);
   return own;
 }
 
@@ -172,8 +173,7 @@ double quick_prediction(const std::vector<double>& weights, std::size_t level, c
 
 QuickAdvice quick_advice(const Scene& scene, QuickModel model, const QuickQuestion& question) {
   require_gpu(model, question.limits.gpu);
-  QuickAdvice advice{
-      .scene = scene.name, .model = std::move(model), .limits = question.limits, .left_out = {}, .materials = {}};
+  QuickAdvice advice{.scene = scene.name, .model = std::move(model), .limits = question.limits};
   std::vector<const QuickMethod*> methods;
   for (const MethodSpec& wanted : question.methods) {
     if (const QuickMethod* method = method_of(advice.model, wanted)) {
@@ -205,7 +205,7 @@ std::string quick_advice_text(const QuickAdvice& advice) {
   for (const auto& [method, reason] : advice.left_out) text += fmt::format("left out {}: {}\n", method, reason);
   for (const MaterialAdvice& material : advice.materials) {
     text += fmt::format("\n{}\n", material.material);
-    for (const std::string& sentence : advice_sentences(material, advice.limits)) text += "  " + sentence + "\n";
+    for (const std::string& sentence : material.words) text += "  " + sentence + "\n";
     text += "\n" + table_of(material, advice.limits.gpu);
   }
   text += fmt::format("\nThe model was fitted on {} scenes of maps that others made. Its noise, under\n",
@@ -226,7 +226,7 @@ std::string quick_advice_json(const QuickAdvice& advice) {
     json["materials"].push_back({{"material", own.material},
                                  {"chosen", to_json_value(own.choice.chosen)},
                                  {"nearest", to_json_value(own.choice.nearest)},
-                                 {"words", advice_sentences(own, advice.limits)},
+                                 {"words", own.words},
                                  {"candidates", to_json_value(own.candidates)}});
   return json_text(json, 2) + "\n";
 }

@@ -1,5 +1,5 @@
 // The model's sum, the choice that follows, and what the model of this build has.
-#include "experiments/studies/quick_advice.hpp"
+#include "experiments/studies/recommend.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

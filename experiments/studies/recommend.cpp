@@ -11,13 +11,11 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
-#include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/figures.hpp"
-#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {
@@ -29,7 +27,7 @@ constexpr FootprintFilter plain_filter{FootprintFilterKind::trilinear, 1};
 // The comparison under one footprint filter.
 struct FilterRun {
   FootprintFilter filter;
-  Results results;
+  Results results = {};
   std::string folder;  ///< from the output folder
   bool coarse = false;
 };
@@ -204,12 +202,13 @@ MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<Fi
   }
   advice.candidates = candidates_of(runs, at, material);
   advice.choice = choose(advice.candidates, settings.limits);
-  const Candidate* const chosen = chosen_of(advice);
-  if (chosen == nullptr || is_plain(*chosen)) return advice;
-  if (chosen->bytes > 0)
-    advice.command = fmt::format("footprint bake {} --method {} --footprint {} -o maps", settings.run.scene,
-                                 chosen->method, chosen->footprint);
-  advice.closer_than_plain = closer_than_plain(runs, *chosen, advice.distances, material);
+  if (const Candidate* const chosen = chosen_of(advice); chosen != nullptr && !is_plain(*chosen)) {
+    if (chosen->bytes > 0)
+      advice.command = fmt::format("footprint bake {} --method {} --footprint {} -o maps", settings.run.scene,
+                                   chosen->method, chosen->footprint);
+    advice.closer_than_plain = closer_than_plain(runs, *chosen, advice.distances, material);
+  }
+  advice.words = advice_sentences(advice, settings.limits);
   return advice;
 }
 
@@ -300,14 +299,13 @@ class Advisor {
   std::vector<FilterRun> run_all(MethodsByFilter& methods, bool coarse) {
     const std::optional<glm::ivec2> size = coarse ? coarse_size_ : std::nullopt;
     std::vector<FilterRun> runs;
-    SharedWork shared{.scene = scene_, .content = content_, .references = {}, .first = {}};
+    SharedWork shared{.scene = scene_, .content = content_};
     ProgressParts parts(parts_.next(coarse ? 1.0 : 3.0, coarse ? "coarse, " : ""), static_cast<double>(methods.size()));
     for (std::size_t f = 0; f < methods.size(); ++f) {
       const FootprintFilter& filter = settings_.filters[f];
       const Progress part = parts.next(1.0, footprint_filter_text(filter) + ", ");
       if (methods[f].empty()) continue;
-      FilterRun run{
-          .filter = filter, .results = {}, .folder = file_stem(footprint_filter_text(filter)), .coarse = coarse};
+      FilterRun run{.filter = filter, .folder = file_stem(footprint_filter_text(filter)), .coarse = coarse};
       const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
       std::filesystem::create_directories(own);
       ProgressParts steps(part, 4.0);

@@ -10,16 +10,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <utility>
-#include <vector>
 
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "methods/registry.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 namespace {
@@ -121,7 +118,7 @@ std::vector<Tile> noisy(const Supersampled& picture, std::span<const Tile> tiles
 
 PixelParts pixel_parts(const Image& reference, const Interior& interior) {
   const Image object = object_pixels(reference);
-  PixelParts parts{.interior = object, .edges = object, .counts = {}};
+  PixelParts parts{.interior = object, .edges = object};
   for (std::size_t i = 0; i < object.texels.size(); ++i) {
     (interior.mask.texels[i] > 0.0F ? parts.edges : parts.interior).texels[i] = 0.0F;
     if (parts.interior.texels[i] > 0.0F && interior.texels.texels[i] > 1.0F) ++parts.counts.minified;
@@ -134,10 +131,10 @@ PixelParts pixel_parts(const Image& reference, const Interior& interior) {
 ErrorCauses error_causes(const Image& picture, const Image& reference, const BoundPicture* bound,
                          const PixelParts& parts, float exposure) {
   ErrorCauses causes;
-  causes.shading = normalized_color_over(picture, reference, exposure, parts.interior);
-  causes.edges = normalized_color_over(picture, reference, exposure, parts.edges);
+  causes.shading = normalized_color(picture, reference, exposure, parts.interior);
+  causes.edges = normalized_color(picture, reference, exposure, parts.edges);
   if (bound == nullptr) return causes;
-  causes.filter = normalized_color_over(bound->picture, reference, exposure, bound->pixels);
+  causes.filter = normalized_color(bound->picture, reference, exposure, bound->pixels);
   causes.method = error_between(picture, bound->picture, reference, exposure, bound->pixels);
   return causes;
 }
@@ -149,7 +146,7 @@ Image as_reference(Image picture, const Image& reference) {
 
 std::optional<double> error_between(const Image& picture, const Image& other, const Image& reference, float exposure,
                                     const Image& mask) {
-  return normalized_color_over(picture, as_reference(other, reference), exposure, mask);
+  return normalized_color(picture, as_reference(other, reference), exposure, mask);
 }
 
 std::optional<double> error_noise(const Image& picture, const std::pair<Image, Image>& halves, float exposure,
@@ -214,6 +211,10 @@ Image within(const Image& mask, std::span<const Tile> tiles) {
   return inside;
 }
 
+namespace {
+
+// `exact` over a stage, where this build has it, `use` wants it and it knows every effect of the scene; none otherwise,
+// and the last reason is added to `warnings`.
 std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use, std::vector<std::string>& warnings) {
   if (use == BoundUse::off) return {};
   const auto all = all_methods();
@@ -228,6 +229,7 @@ std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use, std::v
   return stage.stage(parse_methods(std::string(bound_name)).front(), no_progress);
 }
 
+// Whole if requested or cheap, else in squares. texels: those of Interior.
 BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
                         const PixelParts& parts, const Image& texels) {
   const BoundLights lights{.lights = stage.scene().lights.size(), .environment = stage.scene().environment.has_value()};
@@ -242,13 +244,11 @@ BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse 
   return out;
 }
 
-std::optional<double> noise_floor(const Supersampled& reference, float exposure) {
-  return noise_floor_over(reference, exposure, object_pixels(reference.mean));
-}
+}  // namespace
 
-std::optional<double> noise_floor_over(const Supersampled& reference, float exposure, const Image& mask) {
+std::optional<double> noise_floor(const Supersampled& reference, float exposure, const Image& mask) {
   if (!reference.halves) return std::nullopt;
-  const auto difference = normalized_color_over(reference.halves->first, reference.halves->second, exposure, mask);
+  const auto difference = normalized_color(reference.halves->first, reference.halves->second, exposure, mask);
   if (!difference) return std::nullopt;
   return *difference / halves_over_whole;
 }
@@ -257,9 +257,9 @@ std::optional<Flicker> flicker_between(const Image& before, const Image& picture
                                        const Supersampled& reference, float exposure) {
   const auto figures = compare_changes(before, picture, reference_before.mean, reference.mean, exposure);
   if (!figures) return std::nullopt;
-  Flicker flicker{.mean = figures->mean, .p99 = figures->p99, .noise_floor = {}};
-  flicker.ghosting = normalized_color_over(picture, reference.mean, exposure,
-                                           trailing_edges(reference_before.mean, reference.mean, exposure));
+  Flicker flicker{.mean = figures->mean, .p99 = figures->p99};
+  flicker.ghosting = normalized_color(picture, reference.mean, exposure,
+                                      trailing_edges(reference_before.mean, reference.mean, exposure));
   if (!reference_before.halves || !reference.halves) return flicker;
   const auto& [old_even, old_odd] = *reference_before.halves;
   const auto& [even, odd] = *reference.halves;
@@ -361,10 +361,7 @@ ReferenceView ReferenceRenderer::render(std::size_t index, const RunView& at, fl
                    progress_.next(automatic_work * settings_.reference.spp, prefix + "reference, "));
   if (const auto noise = shared_->wanted_noise.find(at); noise != shared_->wanted_noise.end())
     target.wanted_noise = noise->second;
-  target.reference = known.reference;
-  target.first = known.first;
-  target.samples = known.samples;
-  target.seconds = known.seconds;
+  static_cast<RenderedReference&>(target) = known;
   leave_out_unresolved(target);
   find_parts(target);
   return target;
@@ -376,13 +373,7 @@ ReferenceView ReferenceRenderer::find(std::size_t index, const RunView& at, floa
   write_files(target);
   target.noise_floor = noise_floor(target.reference, exposure_);
   target.highlight_energy = highlight_energy(target.reference.mean, target.reference.mean, exposure_);
-  target.curve = measured_curve(stage_, settings_.reference,
-                                {.view = target.view,
-                                 .distance = at.distance,
-                                 .reference = target.reference.mean,
-                                 .interior = target.parts.interior,
-                                 .exposure = exposure_},
-                                progress_);
+  target.curve = measured_curve(stage_, settings_.reference, target, exposure_, progress_);
   for (const int spp : settings_.reference.other_spp) target.others.push_back(other_reference(target, spp, prefix));
   own_ = {};
   return target;
@@ -504,7 +495,7 @@ void ReferenceRenderer::find_parts(ReferenceView& target) {
   target.parts.counts.unresolved = left_out;
   if (settings_.by_material)
     target.materials = material_masks(interior.materials, target.parts.interior, stage_.scene().materials.size());
-  target.shading_floor = noise_floor_over(target.reference, exposure_, target.parts.interior);
+  target.shading_floor = noise_floor(target.reference, exposure_, target.parts.interior);
   if (has(stage_.effects(), Effect::environment_light)) {
     target.light = light_part(target.parts);
     target.parts.counts.light = pixel_count(target.light.pixels);

@@ -28,7 +28,7 @@ namespace footprint {
 struct PixelParts {
   Image interior;  ///< one smooth piece of surface: what methods are ranked over
   Image edges;     ///< all others
-  PixelCounts counts;
+  PixelCounts counts = {};
 };
 
 /// `reference` is the mean of the samples that `interior` was found with.
@@ -89,21 +89,10 @@ void leave_out_infinite(const Image& picture, Image& mask);
 /// The mask's pixels in the tiles.
 [[nodiscard]] Image within(const Image& mask, std::span<const Tile> tiles);
 
-/// `exact` over a stage, where this build has it, `use` wants it and it knows every effect of the scene; none
-/// otherwise, and the last reason is added to `warnings`.
-[[nodiscard]] std::optional<StagedMethod> stage_bound(const Stage& stage, BoundUse use,
-                                                      std::vector<std::string>& warnings);
-
-/// Whole if requested or cheap, else in squares. `texels` are those of Interior.
-[[nodiscard]] BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse use, const View& view,
-                                      const PixelParts& parts, const Image& texels);
-
 /// The normalised colour error that the reference's noise alone causes; none with fewer than two passes, or where the
 /// object covers no whole pixel.
-[[nodiscard]] std::optional<double> noise_floor(const Supersampled& reference, float exposure);
-
-/// The same over those object pixels at which `mask` (one channel) is above 0.
-[[nodiscard]] std::optional<double> noise_floor_over(const Supersampled& reference, float exposure, const Image& mask);
+/// mask: as normalized_color takes it.
+[[nodiscard]] std::optional<double> noise_floor(const Supersampled& reference, float exposure, const Image& mask = {});
 
 /// A picture that was drawn with few samples, as it would be with as many as `converged` has: what it differs by from
 /// `same`, which the reference drew with the picture's own samples, is added to `converged` (a control variate: the
@@ -151,17 +140,21 @@ struct LightPart {
 [[nodiscard]] Image finest_mean(const Supersampler& sampler, const View& view, const ReferenceSettings& settings,
                                 const Progress& progress);
 
-/// The reference of one view with its masks, bound and curve.
-struct ReferenceView {
+/// A reference as it is rendered.
+struct RenderedReference {
+  Supersampled reference;
+  Image first;         ///< its mean over the samples that finest levels are drawn with; or empty
+  double samples = 0;  ///< per pixel, mean over the image; 0: it has its first samples, and may need more
+  double seconds = 0;  ///< that all of it took
+};
+
+/// The reference of one view, its unresolved pixels uncovered, with its masks, bound and curve.
+struct ReferenceView : RenderedReference {
   std::size_t index = 0;  ///< of the view in the run
   RunView at;
   View view;
-  Supersampled reference;  ///< its unresolved pixels uncovered
-  Image whole;             ///< its mean with them
-  Image first;             ///< its mean over the samples that finest levels are drawn with, without them; or empty
-  Image unresolved;        ///< a mask of them
-  double samples = 0;      ///< per pixel, mean over the image
-  double seconds = 0;      ///< that the reference took
+  Image whole;                         ///< the mean with unresolved pixels
+  Image unresolved;                    ///< a mask of them
   std::optional<double> wanted_noise;  ///< noise floor that it was refined to; none: it was not refined
   std::optional<double> noise_floor, shading_floor;
   PixelParts parts;
@@ -179,13 +172,9 @@ struct ReferenceView {
 /// noise is a part of every error that is measured against it, so errors of different comparisons can be ranked only
 /// against the very same reference.
 struct SharedReferences {
-  struct OfView {
+  struct OfView : RenderedReference {
     RunView at;
-    Supersampled reference;
-    Image begun;         ///< its mean over its first samples, by which the exposure is chosen
-    Image first;         ///< its mean over the samples of finest levels
-    double samples = 0;  ///< per pixel, mean over the image; 0: it has its first samples, and may need more
-    double seconds = 0;  ///< that all of it took
+    Image begun;  ///< its mean over its first samples, by which the exposure is chosen
     std::optional<Interior> interior;
   };
   std::vector<OfView> views;

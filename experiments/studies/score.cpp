@@ -13,7 +13,6 @@
 #include "renderer/core/names.hpp"
 #include "renderer/core/numbers.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/pipeline/supersample.hpp"
 
 namespace footprint {
 namespace {

@@ -1,17 +1,22 @@
-// Sets up a stage in order: context, scene, methods, reference.
+// Equal ratios of distance in a zoom, and turns about an axis through the centre of the bounds, in double. Sets up a
+// stage in order: context, scene, methods, reference.
 #include "experiments/studies/stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
 #include <new>
 #include <utility>
+#include <variant>
 
-#include "experiments/settings/known_methods.hpp"
+#include "experiments/settings/setting.hpp"
+#include "experiments/studies/picture_files.hpp"
 #include "methods/registry.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/effects/effects.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
@@ -66,6 +71,91 @@ bool clear_errors(const gl::Context& context) {
 constexpr double percentile = 0.95;
 constexpr float target_luminance = 0.8F;
 
+constexpr double default_zoom = 8.0;
+
+// Nine digits: 4, where the powers give 3.9999999999999996.
+double rounded(double value) {
+  const double scale = std::pow(10.0, 8.0 - std::floor(std::log10(value)));
+  return std::round(value * scale) / scale;
+}
+
+constexpr double default_turn = 60.0;  // degrees
+
+[[noreturn]] void refuse(const char* option, const char* why) {
+  throw Error(ErrorKind::usage, option, why, "leave it out, or choose another --path");
+}
+
+void require_settings_of_its_own(const RunSettings& settings) {
+  if (!is_animation(settings)) return;
+  const bool zooms = settings.path.kind == AnimationPath::zoom;
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  if ((zooms || plays) && settings.path.degrees) refuse("--degrees", "this path does not turn");
+  if ((zooms || plays) && settings.path.axis) refuse("--axis", "this path does not turn");
+  if (!plays && settings.path.until) refuse("--until", "this path follows no animation");
+  if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
+  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is not a zoom");
+  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is not a zoom");
+}
+
+double first_time(const RunSettings& settings) { return settings.overrides.model.time.value_or(0.0); }
+
+// At equal times from --time to --until.
+void set_times(const RunSettings& settings, const Scene& scene, std::vector<RunView>& views) {
+  const double from = first_time(settings);
+  const double until = settings.path.until.value_or(scene.motion ? scene.motion->last_key : from);
+  if (from == until)
+    throw Error(ErrorKind::usage, "--until", fmt::format("the animation ends at {:g} s, where it starts", until),
+                "let --time and --until differ");
+  for (RunView& view : views) view.seconds = from + (until - from) * view.frame / static_cast<double>(views.size() - 1);
+}
+
+// The turn that a path has made in a frame, about the centre of the bounds.
+glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const RunView& view) {
+  const glm::dvec3 axis = turning_axis(path, scene);
+  const glm::dvec3 centre(scene.bounds.centre());
+  return glm::translate(glm::dmat4(1.0), centre) * glm::rotate(glm::dmat4(1.0), glm::radians(view.degrees), axis) *
+         glm::translate(glm::dmat4(1.0), -centre);
+}
+
+glm::vec3 turned_point(const glm::dmat4& turn, const glm::vec3& point) {
+  return glm::vec3(turn * glm::dvec4(glm::dvec3(point), 1.0));
+}
+
+glm::vec3 turned_direction(const glm::dmat4& turn, const glm::vec3& direction) {
+  return glm::normalize(glm::vec3(glm::dmat3(turn) * glm::dvec3(direction)));
+}
+
+struct Turned {
+  const glm::dmat4& turn;
+
+  Light operator()(PointLight light) const {
+    light.position = turned_point(turn, light.position);
+    return light;
+  }
+  Light operator()(SpotLight light) const {
+    light.point.position = turned_point(turn, light.point.position);
+    light.direction = turned_direction(turn, light.direction);
+    return light;
+  }
+  Light operator()(DirectionalLight light) const {
+    light.direction = turned_direction(turn, light.direction);
+    return light;
+  }
+  Light operator()(AreaLight light) const {
+    light.position = turned_point(turn, light.position);
+    light.direction = turned_direction(turn, light.direction);
+    light.across = turned_direction(turn, light.across);
+    light.up = turned_direction(turn, light.up);
+    return light;
+  }
+};
+
+bool casts_shadows(const Scene& scene) {
+  return std::ranges::any_of(derive_effects(scene), [](const EffectDecision& decision) {
+    return decision.effect == Effect::cast_shadow && decision.on;
+  });
+}
+
 }  // namespace
 
 float automatic_exposure(const Image& reference) {
@@ -88,10 +178,8 @@ Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scen
 }
 
 BackendInfo backend_info(const gl::ContextInfo& context) {
-  return {.name = std::string(gl::backend_name(context.backend)),
-          .renderer = context.renderer,
-          .version = context.version,
-          .cpu = {}};
+  return {
+      .name = std::string(gl::backend_name(context.backend)), .renderer = context.renderer, .version = context.version};
 }
 
 SceneInfo scene_info(const Scene& scene, const Exposure& exposure) {
@@ -174,7 +262,7 @@ PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
     : prepared_(std::make_shared<const PreparedMethod>(
           PreparedMethod{.baked = std::make_unique<BakedMethod>(make_bake(find_method(spec), spec)), .gpu = nullptr})),
-      drawn_{.spec = spec, .filter = {}},
+      drawn_{.spec = spec},
       refusal_(refusal) {}
 
 std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
@@ -326,6 +414,124 @@ ForwardProgram Stage::program_for_cost(const StagedMethod& method, const FixedTr
 Supersampler Stage::finest_level(const StagedMethod& method) const {
   return {context().info(),      *prepared_->gpu, method.gpu(), settings_.reference.filter, scene().camera.orthographic,
           settings_.backend.tile};
+}
+
+std::vector<double> zoom_distances(double from, double to, int frames) {
+  std::vector<double> distances;
+  distances.reserve(static_cast<std::size_t>(frames));
+  for (int i = 0; i < frames; ++i) {
+    distances.push_back(rounded(from * std::pow(to / from, static_cast<double>(i) / (frames - 1))));
+  }
+  distances.front() = from;
+  distances.back() = to;
+  return distances;
+}
+
+std::vector<double> given_distances(const ViewSettings& view) {
+  const ZoomSettings& zoom = view.zoom;
+  if (zoom.frames == 0) return view.distances;
+  if (!zoom.from || !zoom.to) return {};
+  return zoom_distances(*zoom.from, *zoom.to, zoom.frames);
+}
+
+std::vector<double> run_distances(const ViewSettings& view, const Scene& scene) {
+  const ZoomSettings& zoom = view.zoom;
+  if (zoom.frames == 0) return view.distances.empty() ? scene.distances : view.distances;
+  const double from = zoom.from.value_or(scene.distances.front());
+  const double last = scene.distances.size() > 1 ? scene.distances.back() : default_zoom * from;
+  const double to = zoom.to.value_or(last);
+  if (from == to) {
+    throw Error(ErrorKind::usage, "--to", fmt::format("the zoom ends at {:g}, where it starts", to),
+                "let --from and --to differ");
+  }
+  return zoom_distances(from, to, zoom.frames);
+}
+
+std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) {
+  require_settings_of_its_own(settings);
+  std::vector<RunView> views;
+  const auto add = [&](double distance, double degrees) {
+    const auto frame = static_cast<std::uint32_t>(settings.view.zoom.frames > 0 ? views.size() : 0);
+    views.push_back({.distance = distance, .degrees = degrees, .frame = frame});
+  };
+  if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {
+    for (const double distance : run_distances(settings.view, scene)) add(distance, 0.0);
+    return views;
+  }
+  if (settings.path.kind == AnimationPath::light && scene.lights.empty())
+    throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
+                "take --path orbit");
+  const int count = settings.view.zoom.frames;
+  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
+  for (int i = 0; i < count; ++i) add(distance, turn * i / (count - 1));
+  if (plays) set_times(settings, scene, views);
+  return views;
+}
+
+std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view) {
+  if (!is_animation(settings)) return fmt::format("distance {:g}", view.distance);
+  return fmt::format("frame {} of {}", index + 1, settings.view.zoom.frames);
+}
+
+std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view, const std::string& what) {
+  return is_animation(settings) ? fmt::format("{}_{:04}", what, index) : distance_stem(view.distance, what);
+}
+
+glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene) {
+  return path.axis.value_or(glm::normalize(glm::dvec3(scene.camera.world[1])));
+}
+
+Camera camera_on_path(const PathSettings& path, const Scene& scene, const RunView& view) {
+  Camera camera = camera_at_distance(scene, view.distance);
+  if (path.kind != AnimationPath::orbit || view.degrees == 0.0) return camera;
+  camera.world = glm::mat4(turn_of(path, scene, view) * glm::dmat4(camera.world));
+  return camera;
+}
+
+std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, const std::vector<Light>& lights,
+                                  const RunView& view) {
+  if (path.kind != AnimationPath::light || view.degrees == 0.0) return lights;
+  const glm::dmat4 turn = turn_of(path, scene, view);
+  std::vector<Light> turned;
+  for (const Light& light : lights) turned.push_back(std::visit(Turned{turn}, light));
+  return turned;
+}
+
+Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<Bounds>& bounds) {
+  SceneOverrides overrides = settings.overrides;
+  overrides.model.time = seconds;
+  overrides.bounds = bounds;
+  return load_scene(settings.scene, settings.scene_library, overrides);
+}
+
+Scene scene_of_run(const RunSettings& settings) {
+  if (settings.path.kind != AnimationPath::animation)
+    return load_scene(settings.scene, settings.scene_library, settings.overrides);
+  const Scene first = scene_at_time(settings, first_time(settings), {});
+  Bounds bounds = first.bounds;
+  bool casts = false;
+  for (const RunView& view : run_views(settings, first)) {
+    const Scene posed = scene_at_time(settings, view.seconds, {});
+    bounds = {glm::min(bounds.lower, posed.bounds.lower), glm::max(bounds.upper, posed.bounds.upper)};
+    casts = casts || casts_shadows(posed);
+  }
+  Scene scene = scene_at_time(settings, first_time(settings), bounds);
+  if (casts && !scene.shadows.cast) scene.shadows.cast = true;
+  return scene;
+}
+
+Scene scene_for_path(const RunSettings& settings, Scene scene) {
+  if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
+  Scene moved = scene;
+  const std::vector<RunView> views = run_views(settings, scene);
+  const bool casts = std::ranges::any_of(views, [&](const RunView& view) {
+    moved.lights = lights_on_path(settings.path, scene, scene.lights, view);
+    return casts_shadows(moved);
+  });
+  if (casts) scene.shadows.cast = true;
+  return scene;
 }
 
 }  // namespace footprint

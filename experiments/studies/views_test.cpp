@@ -1,5 +1,5 @@
 // The positions of camera and lights along a path, on a scene without a file.
-#include "experiments/studies/views.hpp"
+#include "experiments/studies/stage.hpp"
 
 #include <gtest/gtest.h>
 

@@ -49,13 +49,13 @@ class VulkanCompiler {
 
 /// A compiled program, or why the driver failed.
 struct CompileOutcome {
-  std::optional<CompiledStage> stage;
+  std::optional<CompiledStage> stage = {};
   std::string failure;
 };
 
 /// The outcomes for a chip.
 struct ChipOutcomes {
-  std::string device;  ///< the driver's name of it
+  std::string device = {};  ///< the driver's name of it
   std::vector<CompileOutcome> programs;
 };
 

@@ -58,24 +58,20 @@ void require_mask(const Image& mask, const Image& reference) {
   throw Error(ErrorKind::usage, "comparison", "the mask is not an image of one channel and the reference's size");
 }
 
-// visit(column, row, image's rgb, reference's rgb), row by row, over the object pixels in `mask`; others need not be
-// finite.
+// visit(column, row, image's rgb, reference's rgb), row by row, over the object pixels in `mask`, or all if that is
+// empty; others need not be finite.
 template <typename Visit>
-void visit_pixels_over(const Image& mask, const Image& picture, const Image& reference, Visit visit) {
-  require_mask(mask, reference);
+void visit_object_pixels(const Image& picture, const Image& reference, Visit visit, const Image& mask = {}) {
+  if (!mask.empty()) require_mask(mask, reference);
   require_comparable(picture, reference);
   for (int y = 0; y < reference.height; ++y) {
     for (int x = 0; x < reference.width; ++x) {
-      if (mask.at(x, y)[0] <= 0.0F || !covers_whole_pixel(reference.at(x, y))) continue;
+      const bool is_masked = !mask.empty() && mask.at(x, y)[0] <= 0.0F;
+      if (is_masked || !covers_whole_pixel(reference.at(x, y))) continue;
       const Rgb expected = rgb_of(reference, x, y, "the reference");
       visit(x, y, rgb_of(picture, x, y, "the image"), expected);
     }
   }
-}
-
-template <typename Visit>
-void visit_object_pixels(const Image& picture, const Image& reference, Visit visit) {
-  visit_pixels_over(object_pixels(reference), picture, reference, visit);
 }
 
 double squared(double value) { return value * value; }
@@ -161,33 +157,24 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
       .reference_luminances = expected};
 }
 
-std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure) {
-  return normalized_color_over(picture, reference, exposure, object_pixels(reference));
-}
-
-std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
-                                            const Image& mask) {
+std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure,
+                                       const Image& mask) {
   double distance = 0;
   std::size_t pixels = 0;
-  visit_pixels_over(mask, picture, reference, [&](int, int, const Rgb& shown, const Rgb& expected) {
+  const auto add = [&](int, int, const Rgb& shown, const Rgb& expected) {
     distance += std::sqrt(displayed_squared_distance(shown, expected, exposure) / 3);
     ++pixels;
-  });
+  };
+  visit_object_pixels(picture, reference, add, mask);
   return pixels > 0 ? std::optional(distance / static_cast<double>(pixels)) : std::nullopt;
 }
 
 std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture, const Image& reference_before,
-                                              const Image& reference, float exposure) {
-  return compare_changes_over(before, picture, reference_before, reference, exposure, object_pixels(reference));
-}
-
-std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
-                                                   const Image& reference_before, const Image& reference,
-                                                   float exposure, const Image& mask) {
+                                              const Image& reference, float exposure, const Image& mask) {
   require_comparable(before, reference_before);
   require_comparable(reference_before, reference);
   std::vector<double> differences;
-  visit_pixels_over(mask, picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
+  const auto add = [&](int column, int row, const Rgb& x, const Rgb& r) {
     if (!covers_whole_pixel(reference_before.at(column, row))) return;
     const Rgb old_x = rgb_of(before, column, row, "the image before");
     const Rgb old_r = rgb_of(reference_before, column, row, "the reference before");
@@ -197,7 +184,8 @@ std::optional<FlickerFigures> compare_changes_over(const Image& before, const Im
                      displayed(old_r[c], exposure));
     }
     differences.push_back(std::sqrt(sum / 3));
-  });
+  };
+  visit_object_pixels(picture, reference, add, mask);
   if (differences.empty()) return std::nullopt;
   const auto count = static_cast<double>(differences.size());
   const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / count;

@@ -29,13 +29,10 @@ struct ErrorFigures {
 /// sizes, other than 4 channels, or an object pixel that is not finite.
 [[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
 
-/// The normalised colour error only. Empty without object pixels. Throws as compare_images.
-[[nodiscard]] std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure);
-
-/// The normalised colour error over the object pixels in `mask` (one channel, above 0). Empty without any. Throws as
-/// compare_images.
-[[nodiscard]] std::optional<double> normalized_color_over(const Image& picture, const Image& reference, float exposure,
-                                                          const Image& mask);
+/// The normalised colour error only, over the object pixels in `mask` (one channel, above 0); an empty mask has all.
+/// Empty without any. Throws as compare_images.
+[[nodiscard]] std::optional<double> normalized_color(const Image& picture, const Image& reference, float exposure,
+                                                     const Image& mask = {});
 
 /// Flicker: how the change of an image from the previous frame differs from the reference's (metrics.md).
 struct FlickerFigures {
@@ -44,15 +41,11 @@ struct FlickerFigures {
 };
 
 /// Compares the change from `before` to `picture` with that of the reference. RGBA images of one size; over the pixels
-/// that both references cover wholly. Empty without any. Throws as compare_images.
+/// in `mask`, as normalized_color takes it, that both references cover wholly. Values of others need not be finite.
+/// Empty without any. Throws as compare_images.
 [[nodiscard]] std::optional<FlickerFigures> compare_changes(const Image& before, const Image& picture,
                                                             const Image& reference_before, const Image& reference,
-                                                            float exposure);
-
-/// The same over the pixels in `mask` (one channel, above 0). Values outside of it need not be finite.
-[[nodiscard]] std::optional<FlickerFigures> compare_changes_over(const Image& before, const Image& picture,
-                                                                 const Image& reference_before, const Image& reference,
-                                                                 float exposure, const Image& mask);
+                                                            float exposure, const Image& mask = {});
 
 /// The trailing edges of highlights: 1 where both references cover the pixel wholly and displayed luminance fell by
 /// `trailing_fall` or more from `reference_before` to `reference`, of one size; elsewhere 0.

@@ -55,13 +55,13 @@ TEST(Metrics, ErrorOverSomePixels) {
   const Image reference = pixels({{0.1F, 0, 0, 1}, {0.1F, 0, 0, 1}, {0.1F, 0, 0, 1}, {0.1F, 0, 0, 0}});
   const Image picture = pixels({{0.2F, 0, 0, 1}, {0.3F, 0, 0, 1}, {0.5F, 0, 0, 1}, {0.9F, 0, 0, 1}});
   Image mask(4, 1, 1);
-  EXPECT_FALSE(normalized_color_over(picture, reference, 1.0F, mask).has_value());
+  EXPECT_FALSE(normalized_color(picture, reference, 1.0F, mask).has_value());
   mask.texels = {1, 0, 1, 1};
-  EXPECT_NEAR(normalized_color_over(picture, reference, 1.0F, mask).value(), 0.5 / 2 / std::sqrt(3.0), 1e-7);
+  EXPECT_NEAR(normalized_color(picture, reference, 1.0F, mask).value(), 0.5 / 2 / std::sqrt(3.0), 1e-7);
   EXPECT_EQ(object_pixels(reference).texels, (std::vector<float>{1, 1, 1, 0}));
-  EXPECT_NEAR(normalized_color_over(picture, reference, 1.0F, object_pixels(reference)).value(),
+  EXPECT_NEAR(normalized_color(picture, reference, 1.0F, object_pixels(reference)).value(),
               compare_images(picture, reference, 1.0F)->normalized_color, 1e-12);
-  EXPECT_THROW((void)normalized_color_over(picture, reference, 1.0F, Image(3, 1, 1)), Error);
+  EXPECT_THROW((void)normalized_color(picture, reference, 1.0F, Image(3, 1, 1)), Error);
 }
 
 // Two object pixels, worked out by hand. Exposure 2: shown differences (.2, 0, 0) and, clamped at 1, (0, .5, 0).
@@ -282,17 +282,16 @@ TEST(Flicker, OverAMaskCountsItsPixelsAlone) {
   const Image before = pixels({{0, 0, 0, 1}, {0, 0, 0, 1}}), picture = pixels({{0.5F, 0.5F, 0.5F, 1}, {0, 0, 0, 1}});
   Image mask(2, 1, 1);
   mask.at(0, 0)[0] = 1.0F;
-  EXPECT_NEAR(compare_changes_over(before, picture, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
+  EXPECT_NEAR(compare_changes(before, picture, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
   EXPECT_NEAR(compare_changes(before, picture, before, before, 1.0F)->mean, 0.25, 1e-7);
   Image broken = picture;
   broken.at(1, 0)[0] = std::numeric_limits<float>::infinity();
-  EXPECT_NEAR(compare_changes_over(before, broken, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
+  EXPECT_NEAR(compare_changes(before, broken, before, before, 1.0F, mask)->mean, 0.5, 1e-7);
   mask.at(0, 0)[0] = 0.0F;
-  EXPECT_FALSE(compare_changes_over(before, picture, before, before, 1.0F, mask));
-  EXPECT_NE(error_text([&] {
-              (void)compare_changes_over(before, picture, before, before, 1.0F, Image(1, 1, 1));
-            }).find("mask"),
-            std::string::npos);
+  EXPECT_FALSE(compare_changes(before, picture, before, before, 1.0F, mask));
+  EXPECT_NE(
+      error_text([&] { (void)compare_changes(before, picture, before, before, 1.0F, Image(1, 1, 1)); }).find("mask"),
+      std::string::npos);
 }
 
 TEST(TrailingEdges, ArePixelsThatGotDarkerByTheStepInBothReferences) {

@@ -1,6 +1,10 @@
 // How frames are accumulated over time (docs/explanation/temporal.md).
 #pragma once
 
+#include <array>
+
+#include "renderer/core/names.hpp"
+
 namespace footprint {
 
 /// The limits of a history, from the 3 x 3 pixels of the new frame.
@@ -9,6 +13,13 @@ enum class HistoryClamp {
   box,      ///< their range
   variance  ///< their range, and one deviation from their mean
 };
+
+inline constexpr std::array<Word<HistoryClamp>, 3> history_clamps{{
+    {HistoryClamp::off, "off"},
+    {HistoryClamp::box, "box"},
+    {HistoryClamp::variance, "variance"},
+}};
+constexpr const auto& words_of(HistoryClamp /*clamp*/) { return history_clamps; }
 
 struct HistorySettings {
   int frames = 0;      ///< of the first view, one after the other, until its image is shown; 0: without a history

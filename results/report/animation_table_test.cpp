@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "results/report/ranking.hpp"
+#include "results/report/figures.hpp"
 #include "tests/report/example_animation.hpp"
 
 namespace footprint {

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -14,7 +13,6 @@
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 
@@ -100,7 +98,7 @@ std::string edit_table(const EditRun& run) {
   std::string text = fmt::format("# {}, {} edits of its {}, {}\n\n", markdown_escaped(run.scene.name),
                                  run.records.size(), run.kind, markdown_escaped(run.method));
   if (run.records.empty()) return text;
-  Table table{.heading = {}, .columns = {{"Stage", false}, {"Median ms"}, {"Minimum"}, {"Maximum"}}, .rows = {}};
+  Table table{.columns = {{"Stage", false}, {"Median ms"}, {"Minimum"}, {"Maximum"}}};
   for (const std::string& stage : stage_names(run)) {
     std::vector<double> values;
     for (const EditRecord& record : run.records) {
@@ -130,28 +128,24 @@ void write_edit(const EditRun& run, const std::filesystem::path& folder) {
 namespace {
 
 // The figures of a CSV line, by their names in the JSON.
-constexpr std::array<const char*, 17> csv_columns{
-    "cost_ns",      "bound",         "arithmetic_ns", "texture_ns",        "bandwidth_ns", "passes_ns",    "alu_clocks",
-    "issue_clocks", "texture_reads", "bytes_fetched", "bytes_from_memory", "loop_rounds",  "instructions", "registers",
-    "waves",        "shader_bytes",  "failure"};
-
-std::string csv_value(const JsonWriter::Json& value) {
-  if (value.is_null()) return {};
-  return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
-}
+constexpr std::array<const char*, 25> csv_columns{
+    "method",        "gpu",           "lookups",       "map_bytes",         "pixels",
+    "probes",        "lobes",         "rounds",        "cost_ns",           "bound",
+    "arithmetic_ns", "texture_ns",    "bandwidth_ns",  "passes_ns",         "alu_clocks",
+    "issue_clocks",  "texture_reads", "bytes_fetched", "bytes_from_memory", "loop_rounds",
+    "instructions",  "registers",     "waves",         "shader_bytes",      "failure"};
 
 // One line per method and GPU, RFC 4180.
 std::string cost_csv(const CostReport& report) {
-  std::string csv = "method,gpu,lookups,map_bytes,pixels,probes,lobes,rounds";
-  for (const char* column : csv_columns) csv += fmt::format(",{}", column);
-  csv += "\r\n";
+  std::string csv = fmt::format("{}{}", fmt::join(csv_columns, ","), csv_line_end);
   for (const MethodCosts& method : report.methods) {
     for (const GpuCost& cost : method.gpus) {
-      csv += fmt::format("{},{},{},{},{},{},{},{}", csv_field(method.method), csv_field(cost.gpu), method.lookups,
-                         method.map_bytes, method.pixels, method.trips.probes, method.trips.lobes, method.trips.rounds);
-      const auto json = to_json_value(cost);
-      for (const char* column : csv_columns) csv += "," + csv_value(json.at(column));
-      csv += "\r\n";
+      auto json = to_json_value(method);
+      json.update(to_json_value(method.trips));
+      json.update(to_json_value(cost));
+      std::vector<std::string> values;
+      for (const char* column : csv_columns) values.push_back(csv_value(json.at(column)));
+      csv += fmt::format("{}{}", fmt::join(values, ","), csv_line_end);
     }
   }
   return csv;
@@ -177,18 +171,11 @@ std::vector<Table> gpu_tables(const std::vector<MethodCosts>& methods, const std
   if (methods.empty()) return tables;
   for (std::size_t gpu = 0; gpu < methods.front().gpus.size(); ++gpu) {
     const GpuCost& first = methods.front().gpus[gpu];
-    Table& table = tables.emplace_back(Table{.heading = first.gpu + where,
-                                             .columns = {{"Method", false},
-                                                         {"ns per pixel"},
-                                                         {first.ratio_to_direct ? "Over direct" : "Over the first"},
-                                                         {"Bound", false},
-                                                         {"Passes ns"},
-                                                         {"ALU clocks"},
-                                                         {"Texture reads"},
-                                                         {"Bytes fetched"},
-                                                         {"Registers"},
-                                                         {"Waves"}},
-                                             .rows = {}});
+    Table& table = tables.emplace_back(Table{.heading = first.gpu + where});
+    table.columns = {{"Method", false}, {"ns per pixel"}, {first.ratio_to_direct ? "Over direct" : "Over the first"}};
+    table.columns.push_back({"Bound", false});
+    for (const char* title : {"Passes ns", "ALU clocks", "Texture reads", "Bytes fetched", "Registers", "Waves"})
+      table.columns.push_back({title});
     for (const MethodCosts& method : methods)
       table.rows.push_back(table_row(method, method.gpus.at(gpu), first.cost_ns));
   }
@@ -201,8 +188,7 @@ std::vector<Table> gpu_tables(const Results& results) {
   for (const double distance : distances_of(results)) {
     std::vector<MethodCosts> methods;
     for (const Record& record : records_at(results, distance)) {
-      if (!record.gpu_costs.empty())
-        methods.push_back({.method = record.method, .trips = {}, .gpus = record.gpu_costs});
+      if (!record.gpu_costs.empty()) methods.push_back({.method = record.method, .gpus = record.gpu_costs});
     }
     std::ranges::move(gpu_tables(methods, fmt::format(", distance {:g}", distance)), std::back_inserter(tables));
   }
@@ -254,7 +240,7 @@ namespace {
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "not finite"; }
 
 Table table_of(const NdfResults& results) {
-  Table table{.heading = {}, .columns = {{"method", false}, {"L2"}, {"energy"}, {"peak"}, {"lobes"}}, .rows = {}};
+  Table table{.columns = {{"method", false}, {"L2"}, {"energy"}, {"peak"}, {"lobes"}}};
   table.rows.push_back({"truth", "0", "1", figure(results.truth.peak), fmt::format("{}", results.texels.distinct)});
   for (const auto& [method, r] : results.methods)
     table.rows.push_back({method, figure(r.l2), figure(r.energy), figure(r.peak), fmt::format("{}", r.lobes)});

@@ -21,10 +21,10 @@ namespace footprint {
 struct EditRecord {
   int frame = 0;
   std::map<std::string, std::string> parameters;  ///< those that are set, by name
-  std::vector<StageTime> stages;                  ///< one after the other, from the geometry to the frame
+  std::vector<StageTime> stages = {};             ///< one after the other, from the geometry to the frame
   std::uint64_t bytes = 0;                        ///< of the baked maps
-  std::vector<std::string> notes;                 ///< what the method says of each material, by material
-  std::string image;                              ///< EXR, from the output folder; with a .png of the same stem
+  std::vector<std::string> notes = {};            ///< what the method says of each material, by material
+  std::string image = {};                         ///< EXR, from the output folder; with a .png of the same stem
 
   /// The sum of the stages, seconds.
   [[nodiscard]] double seconds() const;
@@ -62,7 +62,7 @@ struct LoopTrips {
 /// The costs of one method.
 struct MethodCosts {
   std::string method;
-  LoopTrips trips;
+  LoopTrips trips = {};
   double lookups = 0;  ///< texture lookups per pixel, counted on the software renderer
   double map_bytes = 0;
   double pixels = 0;  ///< that the object covers

@@ -25,7 +25,6 @@ EditRun two_edits() {
                          .parameters = {{"height", "0.1"}, {"warp_width", "0.25"}},
                          .stages = {{"geometry", 0.003}, {"frame", 0.005}, {"NDF", 0.002}},
                          .bytes = 2048,
-                         .notes = {},
                          .image = "images/iwasaki_0001.exr"});
   return run;
 }

@@ -34,8 +34,7 @@ std::string with_unit(const std::optional<double>& value, const std::string& uni
 
 Table published_table(const ExperimentReport& report) {
   Table table{.heading = "Measured and published",
-              .columns = {{"Printed in", false}, {"Measure", false}, {"Published"}, {"Measured"}, {"Note", false}},
-              .rows = {}};
+              .columns = {{"Printed in", false}, {"Measure", false}, {"Published"}, {"Measured"}, {"Note", false}}};
   for (const PublishedFigure& figure : report.published) {
     table.rows.push_back({figure.figure, figure.measure, with_unit(figure.published, figure.unit),
                           with_unit(figure.measured, figure.unit), figure.note});
@@ -65,8 +64,7 @@ std::string figures_text(const ClaimOutcome& claim) {
 
 Table claims_table(const ExperimentReport& report) {
   Table table{.heading = "Claims",
-              .columns = {{"Claim", false}, {"Inequality", false}, {"Left"}, {"Right"}, {"Outcome", false}},
-              .rows = {}};
+              .columns = {{"Claim", false}, {"Inequality", false}, {"Left"}, {"Right"}, {"Outcome", false}}};
   for (const ClaimOutcome& claim : report.claims) {
     table.rows.push_back(
         {claim.name, claim.inequality, figure_text(claim.left), figure_text(claim.right), outcome_text(claim)});
@@ -76,8 +74,7 @@ Table claims_table(const ExperimentReport& report) {
 
 Table second_verdicts_table(const ExperimentReport& report) {
   Table table{.heading = "Claims over times, by estimated cost",
-              .columns = {{"Claim", false}, {"GPU", false}, {"Left"}, {"Right"}, {"Outcome", false}},
-              .rows = {}};
+              .columns = {{"Claim", false}, {"GPU", false}, {"Left"}, {"Right"}, {"Outcome", false}}};
   for (const SecondVerdict& verdict : report.second_verdicts) {
     table.rows.push_back({verdict.claim, verdict.gpu, figure_text(verdict.left), figure_text(verdict.right),
                           verdict.problem.empty() ? std::string(in_words(verdict.outcome)) : verdict.problem});
@@ -86,8 +83,7 @@ Table second_verdicts_table(const ExperimentReport& report) {
 }
 
 Table thresholds_table(const ExperimentReport& report) {
-  Table table{
-      .heading = "Thresholds", .columns = {{"Measure", false}, {"At most"}, {"Measured"}, {"", false}}, .rows = {}};
+  Table table{.heading = "Thresholds", .columns = {{"Measure", false}, {"At most"}, {"Measured"}, {"", false}}};
   for (const ThresholdOutcome& threshold : report.thresholds) {
     table.rows.push_back({threshold.measure, figure_text(threshold.limit),
                           threshold.problem.empty() ? figure_text(threshold.measured) : threshold.problem,

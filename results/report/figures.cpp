@@ -5,16 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "renderer/core/memory.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 
@@ -55,7 +51,7 @@ std::vector<std::string> histories_of(const Results& results) {
     if (!record.history) continue;
     const auto& [frames, alpha, clamp, jitter] = *record.history;
     std::string text = fmt::format("{} frames, alpha {:g}, clamp {}, jitter {} (docs/explanation/temporal.md)", frames,
-                                   alpha, clamp, jitter ? "on" : "off");
+                                   alpha, word_for(history_clamps, clamp), jitter ? "on" : "off");
     if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
   }
   return texts;
@@ -320,6 +316,8 @@ std::string csv_field(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
 
+std::string csv_value(const nlohmann::ordered_json& value) { return csv_field(csv_text(value)); }
+
 std::string csv_header() {
   std::vector<std::string_view> names;
   for (const Column& column : all_columns) {
@@ -334,7 +332,7 @@ std::string csv_line(const Record& record) {
   for (const Column& column : all_columns) {
     if (*column.place == '\0') continue;
     const nlohmann::ordered_json::json_pointer place(column.place);
-    values.push_back(document.contains(place) ? csv_field(csv_text(document.at(place))) : std::string());
+    values.push_back(document.contains(place) ? csv_value(document.at(place)) : std::string());
   }
   return fmt::format("{}", fmt::join(values, ","));
 }

@@ -60,12 +60,23 @@ template <class T, std::size_t i>
   return member_name<member>();
 }
 
+/// Whether a structure's fields are those of the structure that has it as a member, and not an object in it.
+template <class T>
+inline constexpr bool is_spread = false;
+
 /// Every member of a structure that has no list of its own.
 template <class Archive, class Structure>
 void fields(Archive& archive, Structure& value) {
   const auto members = members_of(value);
+  const auto add_one = [&]<class Member>(const std::string& name, Member& member) {
+    if constexpr (is_spread<std::remove_const_t<Member>>) {
+      fields(archive, member);
+    } else {
+      archive(name.c_str(), member);
+    }
+  };
   const auto add = [&]<std::size_t... i>(std::index_sequence<i...> /*all*/) {
-    (archive(member_name_of<std::remove_const_t<Structure>, i>().c_str(), std::get<i>(members)), ...);
+    (add_one(member_name_of<std::remove_const_t<Structure>, i>(), std::get<i>(members)), ...);
   };
   add(std::make_index_sequence<std::tuple_size_v<decltype(members)>>());
 }

@@ -7,10 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string_view>
 
 #include "renderer/core/embedded_texts.hpp"
 #include "renderer/image/false_color.hpp"

@@ -24,9 +24,9 @@ struct MarkdownColumn {
 
 /// A table with its heading.
 struct Table {
-  std::string heading;
-  std::vector<MarkdownColumn> columns;
-  std::vector<std::vector<std::string>> rows;  ///< one cell per column
+  std::string heading = {};
+  std::vector<MarkdownColumn> columns = {};
+  std::vector<std::vector<std::string>> rows = {};  ///< one cell per column
 };
 
 /// The table under its heading, every cell escaped; empty without rows.
@@ -79,7 +79,7 @@ struct PagePoint {
 /// Error against cost, on logarithmic axes.
 struct PagePlot {
   std::string title;  ///< of the cost
-  std::vector<PagePoint> points;
+  std::vector<PagePoint> points = {};
   std::optional<double> most_x = {}, most_y = {};  ///< limits, drawn as lines
 };
 

@@ -1,6 +1,6 @@
 // Compares the records of a distance by their shading error, says in words what follows, and walks the supersampling
 // curve from its right end to the last point that is not better than the method.
-#include "results/report/ranking.hpp"
+#include "results/report/figures.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "renderer/core/error.hpp"
-#include "results/report/figures.hpp"
 
 namespace footprint {
 namespace {

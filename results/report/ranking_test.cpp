@@ -1,6 +1,6 @@
 // The ranks of methods, and sentences that claim no more than the figures support. Equivalent samples against curves
 // whose answer is known in closed form.
-#include "results/report/ranking.hpp"
+#include "results/report/figures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,13 +24,8 @@ Record method(const std::string& name, double shading, std::size_t interior = 50
   record.error = RecordError{};
   record.error->normalized_color = 2 * shading;
   record.error->noise_floor = 0.002;
-  record.error->causes = {.shading = shading,
-                          .shading_floor = 0.01,
-                          .shading_noise = 0.00025,
-                          .edges = 0.1 + shading,
-                          .filter = {},
-                          .method = {},
-                          .light = {}};
+  record.error->causes = {
+      .shading = shading, .shading_floor = 0.01, .shading_noise = 0.00025, .edges = 0.1 + shading, .light = {}};
   record.frame_ms = {2.0, 1.9, 2.2};
   record.ratio_to_direct = {1.3, 1.2, 1.4};
   return record;

@@ -12,7 +12,6 @@
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 
@@ -135,7 +134,6 @@ std::string what_better_costs(const MaterialAdvice& advice) {
 
 PagePlot plot_of(const MaterialAdvice& advice, const Limits& limits) {
   PagePlot plot{.title = limits.gpu.empty() ? "Frame time relative to direct" : "Estimated cost relative to direct",
-                .points = {},
                 .most_x = limits.max_cost,
                 .most_y = limits.max_error};
   for (std::size_t i = 0; i < advice.candidates.size(); ++i) {
@@ -151,9 +149,7 @@ PagePlot plot_of(const MaterialAdvice& advice, const Limits& limits) {
 }
 
 Table table_of(const MaterialAdvice& advice) {
-  Table table{.heading = {},
-              .columns = {{"Method", false}, {"Footprint filter", false}, {"Error"}, {"Worst"}, {"Cost"}, {"Memory"}},
-              .rows = {}};
+  Table table{.columns = {{"Method", false}, {"Footprint filter", false}, {"Error"}, {"Worst"}, {"Cost"}, {"Memory"}}};
   for (const Candidate& c : advice.candidates) {
     table.rows.push_back(
         {c.method, c.footprint,
@@ -165,7 +161,7 @@ Table table_of(const MaterialAdvice& advice) {
 
 PageSection section_of(const MaterialAdvice& advice, const Limits& limits) {
   return {.heading = advice.material,
-          .sentences = advice_sentences(advice, limits),
+          .sentences = advice.words,
           .command = advice.command,
           .plot = plot_of(advice, limits),
           .table = table_of(advice),
@@ -210,7 +206,7 @@ std::vector<Provenance> provenance_of(const Recommendation& r) {
 std::vector<std::string> answer_of(const Recommendation& recommendation) {
   std::vector<std::string> answer;
   for (const MaterialAdvice& advice : recommendation.materials) {
-    const std::string first = advice_sentences(advice, recommendation.limits).front();
+    const std::string& first = advice.words.front();
     answer.push_back(recommendation.materials.size() == 1 ? first : fmt::format("{}: {}", advice.material, first));
   }
   return answer;
@@ -313,7 +309,7 @@ std::string recommendation_text(const Recommendation& recommendation) {
   if (recommendation.coarse) {
     std::string text = first_answer_title(recommendation) + ":\n";
     for (const MaterialAdvice& advice : recommendation.materials)
-      text += fmt::format("  {}: {}\n", advice.material, what_is_chosen(advice, recommendation.limits));
+      text += fmt::format("  {}: {}\n", advice.material, advice.words.front());
     return text;
   }
   std::string text = fmt::format("{}, {}: {} of {} candidates measured in full\n", recommendation.scene.name,
@@ -321,8 +317,7 @@ std::string recommendation_text(const Recommendation& recommendation) {
   for (const auto& [method, reason] : recommendation.left_out) text += fmt::format("left out {}: {}\n", method, reason);
   for (const MaterialAdvice& advice : recommendation.materials) {
     text += fmt::format("\n{}\n", advice.material);
-    for (const std::string& sentence : advice_sentences(advice, recommendation.limits))
-      text += fmt::format("  {}\n", sentence);
+    for (const std::string& sentence : advice.words) text += fmt::format("  {}\n", sentence);
     if (!advice.command.empty()) text += fmt::format("  Bake it: {}\n", advice.command);
   }
   return text;

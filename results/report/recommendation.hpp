@@ -57,14 +57,15 @@ struct Choice {
 /// A material's advice, with its reasons.
 struct MaterialAdvice {
   std::string material;
-  std::vector<std::size_t> pixels;  ///< interior ones that show it, at each distance that counts
-  std::vector<double> distances;    ///< those: with pixels enough
-  std::vector<Candidate> candidates;
+  std::vector<double> distances;    ///< those that count: with pixels enough
+  std::vector<std::size_t> pixels;  ///< interior ones that show it, at each of them
   Choice choice;
   /// The chosen one against plain `direct`, pixel by pixel, mean over the distances: shares of pixels in which each is
   /// closer to the reference beyond noise. None where it is that, or is under another filter.
   std::optional<std::array<double, 2>> closer_than_plain;
-  std::string command;  ///< that bakes it; empty where there is nothing to bake
+  std::string command;             ///< that bakes it; empty where there is nothing to bake
+  std::vector<std::string> words;  ///< advice_sentences of all this
+  std::vector<Candidate> candidates;
 };
 
 /// A picture pair of the page: reference and method at a distance, as paths from the output folder.

@@ -145,12 +145,13 @@ TEST(Contenders, IncludeTheChoice) {
 
 TEST(Advice, SaysWhyAndHowSure) {
   MaterialAdvice advice{.material = "metal",
-                        .pixels = {500, 120},
                         .distances = {1, 4},
-                        .candidates = front,
+                        .pixels = {500, 120},
                         .choice = choose(front, {.max_error = {}, .max_cost = 2.0, .max_bytes = {}}),
                         .closer_than_plain = std::array<double, 2>{0.6, 0.25},
-                        .command = "footprint bake x --method lean -o maps"};
+                        .command = "footprint bake x --method lean -o maps",
+                        .words = {},
+                        .candidates = front};
   std::string text;
   for (const std::string& sentence : advice_sentences(advice, {.max_error = {}, .max_cost = 2.0, .max_bytes = {}}))
     text += sentence + "\n";

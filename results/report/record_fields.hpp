@@ -7,34 +7,17 @@
 #include "results/report/command_reports.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/recommendation.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
 
-void fields(auto& archive, Is<RecordError> auto& value) {
-  archive("normalized_color", value.normalized_color);
-  archive("relative_rmse", value.relative_rmse);
-  archive("relmse", value.relmse);
-  archive("psnr", value.psnr);
-  archive("energy_bias", value.energy_bias);
-  archive("luminance_distance", value.luminance_distance);
-  archive("luminances", value.luminances);
-  archive("reference_luminances", value.reference_luminances);
-  archive("noise_floor", value.noise_floor);
-  archive("representation", value.representation);
-  archive("filtering", value.filtering);
-  fields(archive, value.causes);
-}
-
-void fields(auto& archive, Is<Flicker> auto& value) {
-  archive("mean", value.mean);
-  archive("p99", value.p99);
-  archive("noise_floor", value.noise_floor);
-  archive("ghosting", value.ghosting);
-  fields(archive, value.causes);
-}
+template <>
+inline constexpr bool is_spread<ErrorCauses> = true;
+template <>
+inline constexpr bool is_spread<FlickerCauses> = true;
+template <>
+inline constexpr bool is_spread<Choice> = true;
 
 /// Reads a number of samples and its bound ("<1", ">64", "" or "n/a") as equivalent_spp and equivalent_bound write
 /// them.
@@ -185,28 +168,7 @@ void fields(auto& archive, const MatrixResults& value) {
   archive("members", value.members);
 }
 
-/// The advice with its sentences.
-struct WrittenAdvice {
-  MaterialAdvice advice;
-  std::vector<std::string> words;
-};
-
-void fields(auto& archive, const WrittenAdvice& value) {
-  const MaterialAdvice& advice = value.advice;
-  archive("material", advice.material);
-  archive("distances", advice.distances);
-  archive("pixels", advice.pixels);
-  fields(archive, advice.choice);
-  archive("closer_than_plain", advice.closer_than_plain);
-  archive("command", advice.command);
-  archive("words", value.words);
-  archive("candidates", advice.candidates);
-}
-
 void fields(auto& archive, const Recommendation& value) {
-  std::vector<WrittenAdvice> materials;
-  for (const MaterialAdvice& advice : value.materials)
-    materials.push_back({advice, advice_sentences(advice, value.limits)});
   archive("schema", "footprint-recommend/1");
   archive("tool", value.tool);
   archive("backend", value.backend);
@@ -221,7 +183,7 @@ void fields(auto& archive, const Recommendation& value) {
   archive("coarse", value.coarse);
   archive("left_out", value.left_out);
   archive("reports", value.reports);
-  archive("materials", materials);
+  archive("materials", value.materials);
 }
 
 }  // namespace footprint

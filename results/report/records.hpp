@@ -13,6 +13,8 @@
 
 #include "renderer/core/gpu_cost.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/image/metrics.hpp"
+#include "renderer/pipeline/history_settings.hpp"
 
 namespace footprint {
 
@@ -59,8 +61,8 @@ struct ErrorCauses {
   std::optional<double> shading_floor;  ///< what the reference's own noise causes there
   std::optional<double> shading_noise;  ///< standard error of `shading`, of the reference's noise
   std::optional<double> edges;          ///< of the picture, over all other object pixels
-  std::optional<double> filter;         ///< of `exact` under the same footprint filter, over the bound's pixels
-  std::optional<double> method;         ///< of the picture against that of `exact`, over the same
+  std::optional<double> filter = {};    ///< of `exact` under the same footprint filter, over the bound's pixels
+  std::optional<double> method = {};    ///< of the picture against that of `exact`, over the same
   std::optional<double> light;          ///< of the lookup of an environment by lobes, over the pixels for light
 };
 
@@ -90,26 +92,22 @@ struct RecordError {
   ErrorCauses causes = {};
 };
 
-/// Flicker over some of the object's pixels; metrics.md.
-struct PartFlicker {
-  double mean = 0, p99 = 0;
-};
-
 /// The causes of flicker, as ErrorCauses has them of errors. None: no such pixel in both frames, or its image was
 /// not drawn.
 struct FlickerCauses {
-  std::optional<PartFlicker> shading;  ///< over pixels that are interior in both frames
-  std::optional<PartFlicker> edges;    ///< over the object's other pixels
-  std::optional<PartFlicker> filter;   ///< of `exact` under the same footprint filter, over its pixels in both frames
-  std::optional<PartFlicker> method;   ///< of the picture against that of `exact`, over the same
+  std::optional<FlickerFigures> shading;  ///< over pixels that are interior in both frames
+  std::optional<FlickerFigures> edges;    ///< over the object's other pixels
+  std::optional<FlickerFigures> filter =
+      {};  ///< of `exact` under the same footprint filter, over its pixels in both frames
+  std::optional<FlickerFigures> method = {};  ///< of the picture against that of `exact`, over the same
 };
 
 /// The change of an image from frame to frame that the reference does not have; metrics.md.
 struct Flicker {
-  double mean = 0;                      ///< over the object's pixels, 0 to 2
-  double p99 = 0;                       ///< 99th percentile over them
-  std::optional<double> noise_floor;    ///< the mean that the references' own noise causes
-  std::optional<double> ghosting = {};  ///< error where the reference got darker (trailing_edges); none: nowhere
+  double mean = 0;                         ///< over the object's pixels, 0 to 2
+  double p99 = 0;                          ///< 99th percentile over them
+  std::optional<double> noise_floor = {};  ///< the mean that the references' own noise causes
+  std::optional<double> ghosting = {};     ///< error where the reference got darker (trailing_edges); none: nowhere
   FlickerCauses causes = {};
 };
 
@@ -117,7 +115,7 @@ struct Flicker {
 struct OtherReference {
   int spp = 1;
   double normalized_color = 0;
-  std::optional<double> noise_floor;
+  std::optional<double> noise_floor = {};
 };
 
 /// Pictures of one record, as paths relative to the output folder.
@@ -140,20 +138,12 @@ struct MaterialError {
   std::uint64_t bytes = 0;        ///< that the method baked of the material
 };
 
-/// How frames of a method were accumulated.
-struct HistoryInfo {
-  int frames = 0;     ///< of the first view before its image was shown
-  double alpha = 0;   ///< share of the newest frame
-  std::string clamp;  ///< off, box or variance
-  bool jitter = true;
-};
-
 /// One method in one view.
 struct Record {
   std::string scene;
   std::string method;                                                ///< the method as written, options included
   std::map<std::string, std::variant<double, std::string>> options;  ///< every option, defaults filled in
-  std::optional<HistoryInfo> history = {};                           ///< none: images are single frames
+  std::optional<HistorySettings> history = {};                       ///< none: images are single frames
   double distance = 1;
   double degrees = 0;  ///< that camera or lights have turned by since the first frame of an animation
   double seconds = 0;  ///< time of the model file's animation, where a path follows it
@@ -272,7 +262,7 @@ struct PublishedFigure {
   std::string measure;  ///< the expression that was measured: "error(tan_gmm, spp=16)"
   std::string unit;     ///< "fps", "s"; empty for errors and ratios
   double published = 0;
-  std::optional<double> measured;
+  std::optional<double> measured = {};
   std::string note;  ///< how the paper measured, or why it is not measured here
 };
 
@@ -325,11 +315,11 @@ struct ExperimentReport {
   std::string name, title, description;
   std::string file;    ///< the TOML, as given
   bool quick = false;  ///< smaller than the file says: the figures are no measurement
-  std::vector<PublishedFigure> published;
-  std::vector<ClaimOutcome> claims;
-  std::vector<SecondVerdict> second_verdicts;
-  std::vector<ThresholdOutcome> thresholds;
-  std::vector<std::string> pictures;  ///< composed figures, paths from the output folder
+  std::vector<PublishedFigure> published = {};
+  std::vector<ClaimOutcome> claims = {};
+  std::vector<SecondVerdict> second_verdicts = {};
+  std::vector<ThresholdOutcome> thresholds = {};
+  std::vector<std::string> pictures = {};  ///< composed figures, paths from the output folder
 
   /// Claims and thresholds that did not come out as they should, one line each.
   [[nodiscard]] std::vector<std::string> shortfalls() const;
@@ -344,7 +334,7 @@ struct BackendInfo {
   std::string name;      ///< egl, egl-device, osmesa
   std::string renderer;  ///< GL_RENDERER
   std::string version;   ///< GL_VERSION
-  std::string cpu;       ///< processor model and core count: times mean nothing without them
+  std::string cpu = {};  ///< processor model and core count: times mean nothing without them
 };
 
 struct SceneInfo {
@@ -375,8 +365,8 @@ struct TimingInfo {
 
 /// The way of an animation.
 struct AnimationWay {
-  std::string path;                           ///< zoom, orbit, light or animation
-  std::optional<std::array<double, 3>> axis;  ///< of the rotation, unit, in world space; none: nothing turns
+  std::string path;                                ///< zoom, orbit, light or animation
+  std::optional<std::array<double, 3>> axis = {};  ///< of the rotation, unit, in world space; none: nothing turns
 };
 
 /// The coordinates of a member of a [matrix]: each axis with its value, as the file writes them.

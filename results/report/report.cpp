@@ -8,16 +8,13 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "renderer/core/files.hpp"
 #include "results/report/command_reports.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {

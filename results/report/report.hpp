@@ -73,9 +73,9 @@ struct MatrixMember {
 
 /// A whole matrix, or the part of it that was run.
 struct MatrixResults {
-  ExperimentReport report;            ///< claims, thresholds and published figures over all members
-  std::vector<std::string> left_out;  ///< of those, the ones over members that were not run: they are not judged
-  std::vector<MatrixMember> members;  ///< one or more
+  ExperimentReport report;                 ///< claims, thresholds and published figures over all members
+  std::vector<std::string> left_out;       ///< of those, the ones over members that were not run: they are not judged
+  std::vector<MatrixMember> members = {};  ///< one or more
 };
 
 /// Its claims and thresholds, and every record in one table, in Markdown.

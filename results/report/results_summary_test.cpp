@@ -18,13 +18,7 @@ Record row(const std::string& method, double error, double cost, double noise = 
   record.width = record.height = 64;
   record.pixels = {.object = 800, .interior = 500, .minified = 500, .bound = {}, .light = {}};
   record.error = RecordError{};
-  record.error->causes = {.shading = error,
-                          .shading_floor = 0.0001,
-                          .shading_noise = noise,
-                          .edges = {},
-                          .filter = {},
-                          .method = {},
-                          .light = {}};
+  record.error->causes = {.shading = error, .shading_floor = 0.0001, .shading_noise = noise, .edges = {}, .light = {}};
   record.frame_ms = {cost, cost, cost};
   record.ratio_to_direct = {cost, 0.9 * cost, 1.1 * cost};
   record.precompute_bytes = 1 << 20;
@@ -53,7 +47,7 @@ TEST(ResultsSummary, AnswersBeforeTheTable) {
 
 TEST(ResultsSummary, AHistoryOfDirectIsComparedWithItsSingleFrame) {
   Record history = row("direct", 0.05, 2);
-  history.history = {.frames = 24, .alpha = 0.1, .clamp = "off", .jitter = true};
+  history.history = {.frames = 24, .alpha = 0.1, .clamp = HistoryClamp::off, .jitter = true};
   EXPECT_TRUE(says(results_summary(run_of({history, row("a", 0.1, 3)})),
                    "direct is the most accurate: error 0.05000 (-75% against direct), at 2.00 times the frame time"));
 }

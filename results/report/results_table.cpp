@@ -21,7 +21,6 @@
 #include "results/report/experiment_report.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
-#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
 
@@ -51,7 +50,7 @@ bool has_light(const DistanceRecords& records) {
 Table table_of(std::vector<std::string_view> keys, const DistanceRecords& records) {
   if (!has_light(records)) std::erase(keys, "light_error");
   const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
-  Table table{.heading = {}, .columns = {{"Method", false}}, .rows = {}};
+  Table table{.columns = {{"Method", false}}};
   for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
   for (const Record& record : records) {
     const nlohmann::ordered_json json = to_json_value(record);
@@ -103,7 +102,7 @@ std::string main_table(const DistanceRecords& records) {
 
 /// Every two methods of a distance pixel by pixel: empty where none were.
 std::string pairs_table(const Results& results, const DistanceRecords& records) {
-  Table table{.heading = {}, .columns = {{"% of pixels closer than", false}}, .rows = {}};
+  Table table{.columns = {{"% of pixels closer than", false}}};
   bool any = false;
   for (const Record& record : records) {
     table.columns.push_back({markdown_escaped(record.method)});
@@ -143,7 +142,7 @@ std::string distance_section(const Results& results, double distance) {
 /// The figures that do not depend on the distance: one line per method, more only if its figures differ.
 std::string preparation_section(const Results& results) {
   constexpr std::array<std::string_view, 3> keys{"precompute_s", "precompute_bytes", "precompute_bytes_per_texel"};
-  Table table{.heading = "Bakes", .columns = {{"Method", false}}, .rows = {}};
+  Table table{.heading = "Bakes", .columns = {{"Method", false}}};
   for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
   table.columns.insert(table.columns.end(), {{"Cached", false}, {"Effects left out", false}});
   for (const Record& record : results.records) {
@@ -159,8 +158,7 @@ std::string preparation_section(const Results& results) {
 /// Flicker between the frames of a zoom.
 std::string flicker_section(const Results& results) {
   Table table{.heading = "Flicker",
-              .columns = {{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}},
-              .rows = {}};
+              .columns = {{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}};
   for (const Record& record : results.records) {
     if (!record.flicker) continue;
     const Flicker& flicker = *record.flicker;
@@ -173,8 +171,7 @@ std::string flicker_section(const Results& results) {
 /// Effective NDFs of the footprints that were looked into.
 std::string ndf_section(const Results& results) {
   Table table{.heading = "Effective NDFs",
-              .columns = {{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}},
-              .rows = {}};
+              .columns = {{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}}};
   for (const FootprintNdf& figures : results.ndf) {
     table.rows.push_back({figures.footprint, figures.method, three_figures(figures.l2), three_figures(figures.energy),
                           three_figures(figures.peak), fmt::format("{}", figures.lobes)});
@@ -185,8 +182,7 @@ std::string ndf_section(const Results& results) {
 /// Figures that no picture shows.
 std::string quantity_section(const Results& results) {
   Table table{.heading = "Other quantities",
-              .columns = {{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}},
-              .rows = {}};
+              .columns = {{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}}};
   for (const QuantityFigure& figure : results.quantities)
     table.rows.push_back({figure.name, figure.method, figure.quantity, fmt::format("{:.3g}", figure.value)});
   return markdown_section(table);
@@ -195,8 +191,7 @@ std::string quantity_section(const Results& results) {
 /// Frame builds of methods that have one: they are part of the cost at that distance.
 std::string frame_build_section(const Results& results) {
   Table table{.heading = "Frame build",
-              .columns = {{"Method", false}, {"Distance"}, {"Frame build ms"}, {"In frame ms", false}},
-              .rows = {}};
+              .columns = {{"Method", false}, {"Distance"}, {"Frame build ms"}, {"In frame ms", false}}};
   for (const Record& record : results.records) {
     if (!record.frame_build) continue;
     table.rows.push_back({record.method, fmt::format("{}", record.distance),
@@ -208,7 +203,7 @@ std::string frame_build_section(const Results& results) {
 
 /// A few distances of the supersampling curve side by side.
 std::string curve_table(const Results& results, std::span<const double> distances) {
-  Table table{.heading = {}, .columns = {{"spp"}}, .rows = {}};
+  Table table{.columns = {{"spp"}}};
   for (const double distance : distances)
     table.columns.insert(table.columns.end(), {{fmt::format("Error at {}", distance)}, {"ms"}});
   std::map<int, std::vector<std::string>> by_count;
@@ -310,7 +305,7 @@ std::string mean_text(const nlohmann::ordered_json& records, const std::string& 
 
 std::string means_table(const nlohmann::ordered_json& records, const std::vector<std::string>& methods,
                         std::span<const MeanColumn> columns) {
-  Table table{.heading = {}, .columns = {{"Method", false}}, .rows = {}};
+  Table table{.columns = {{"Method", false}}};
   for (const MeanColumn& column : columns) table.columns.push_back({column.title});
   for (const std::string& method : methods) {
     std::vector<std::string>& row = table.rows.emplace_back(1, method);
@@ -511,11 +506,11 @@ under the same footprint filter. Method's own: flicker of the image compared wit
 
 DistanceAnswer answer_at(const Results& results, double distance) {
   const DistanceRecords records = sorted_records(results, distance);
-  if (!ranked_error(records.front())) return {.sentences = {"no method is ranked."}, .methods = {}};
+  if (!ranked_error(records.front())) return {.sentences = {"no method is ranked."}};
   DistanceRecords best;
   std::ranges::copy_if(records, std::back_inserter(best),
                        [&](const Record& r) { return ranked_error(r) && !is_better(records.front(), r); });
-  DistanceAnswer answer{.sentences = {most_accurate(best, error_of_direct(results, distance))}, .methods = {}};
+  DistanceAnswer answer{.sentences = {most_accurate(best, error_of_direct(results, distance))}};
   const Record* const cheapest = cheapest_gain(records, best);
   if (cheapest) {
     answer.sentences.push_back(fmt::format("{} is the cheapest that improves on direct: error {}, at {}.",

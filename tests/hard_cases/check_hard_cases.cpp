@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/messages.hpp"
-#include "app/output.hpp"
+#include "app/subcommand.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 #include "tests/hard_cases/hard_report.hpp"

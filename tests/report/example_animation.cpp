@@ -32,9 +32,9 @@ Record record_of_frame(int frame, const std::string& method, double error, const
   if (frame == 0) return record;
   record.error->causes.shading = 0.9 * error;
   record.flicker = Flicker{.mean = 2 * error, .p99 = 3 * error, .noise_floor = {}};
-  record.flicker->causes.shading = PartFlicker{.mean = error, .p99 = error};
-  record.flicker->causes.edges = PartFlicker{.mean = 3 * error, .p99 = 3 * error};
-  if (method != "a") record.flicker->causes.filter = PartFlicker{.mean = 0.05, .p99 = 0.1};
+  record.flicker->causes.shading = FlickerFigures{.mean = error, .p99 = error};
+  record.flicker->causes.edges = FlickerFigures{.mean = 3 * error, .p99 = 3 * error};
+  if (method != "a") record.flicker->causes.filter = FlickerFigures{.mean = 0.05, .p99 = 0.1};
   return record;
 }
 

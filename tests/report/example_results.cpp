@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "results/report/ranking.hpp"
+#include "results/report/figures.hpp"
 
 namespace footprint {
 namespace {
@@ -61,7 +61,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
       .object = 12'345, .unresolved = 50, .interior = 9'260, .minified = 9'000, .bound = 9'260, .light = {}};
   record.equivalent = equivalent_samples(
       supersampling_curve(results.supersampling, distance, &SupersamplingPoint::shading), error * 0.8);
-  if (behaviour.bytes != 0) record.history = {.frames = 16, .alpha = 0.1, .clamp = "box", .jitter = true};
+  if (behaviour.bytes != 0) record.history = {.frames = 16, .alpha = 0.1, .clamp = HistoryClamp::box, .jitter = true};
   const double ms = behaviour.milliseconds / std::pow(distance, 0.3);
   record.frame_ms = {ms, ms * 0.96, ms * 1.11};
   record.fps = 1000 / ms;

@@ -120,7 +120,7 @@ void write_views(const std::filesystem::path& folder) {
                            {.name = "b", .x = 2, .low = 1.9, .high = 2.2, .y = 0.05, .chosen = true},
                            {.name = "worse", .x = 3, .low = 2, .high = 4, .y = 0.2}},
                 .most_y = 0.08},
-       .table = {.heading = {}, .columns = {{"Method", false}, {"Error"}}, .rows = {{"a", "0.1"}, {"b", "0.05"}}},
+       .table = {.columns = {{"Method", false}, {"Error"}}, .rows = {{"a", "0.1"}, {"b", "0.05"}}},
        .marked = 1,
        .links = {"a b/index.html"}});
   page.provenance = {{"Version", "none"}};

@@ -34,7 +34,7 @@ constexpr std::array<Backend, 3> all_backends = {Backend::egl, Backend::egl_devi
 
 /// The current context of a thread, tracked because GL has one per thread.
 struct Current {
-  NativeContext* native = nullptr;
+  const NativeContext* native = nullptr;
   const Functions* functions = nullptr;
 };
 thread_local Current current;
@@ -50,26 +50,14 @@ void switch_to(Current next) {
   current = next;
 }
 
-/// Restores the previous context, unless `keep` is called.
-class RestoreCurrent {
- public:
-  RestoreCurrent() = default;
-  RestoreCurrent(const RestoreCurrent&) = delete;
-  RestoreCurrent& operator=(const RestoreCurrent&) = delete;
-  ~RestoreCurrent() {
-    if (keep_) return;
-    try {
-      switch_to(before_);
-    } catch (const Error&) {
-      // After this, api() reports that no context is current.
-    }
+/// Makes a previous context current again. If that fails, api() reports that none is current.
+void restore(const Current& before) noexcept {
+  try {
+    switch_to(before);
+  } catch (const Error&) {
+    return;
   }
-  void keep() { keep_ = true; }
-
- private:
-  Current before_ = current;
-  bool keep_ = false;
-};
+}
 
 std::string text(GLenum name) {
   const GLubyte* value = api().GetString(name);
@@ -109,16 +97,9 @@ ContextInfo describe(Backend backend) {
   return info;
 }
 
-std::unique_ptr<NativeContext> open_native(Backend backend, int device) {
-  switch (backend) {
-    case Backend::egl:
-      return open_egl_surfaceless();
-    case Backend::egl_device:
-      return open_egl_device(device);
-    case Backend::osmesa:
-      return open_osmesa();
-  }
-  throw std::logic_error("not a backend");
+NativeContext open_native(Backend backend, int device) {
+  if (backend == Backend::osmesa) return open_osmesa();
+  return backend == Backend::egl ? open_egl_surfaceless() : open_egl_device(device);
 }
 
 }  // namespace
@@ -148,7 +129,7 @@ std::vector<std::string> DebugLog::take() {
 }
 
 std::string gl_error_name(unsigned code) {
-  static constexpr std::array<Word<unsigned>, 7> names{{
+  static constexpr std::array<Word<unsigned>, 10> names{{
       {GL_NO_ERROR, "GL_NO_ERROR"},
       {GL_INVALID_ENUM, "GL_INVALID_ENUM"},
       {GL_INVALID_VALUE, "GL_INVALID_VALUE"},
@@ -156,6 +137,9 @@ std::string gl_error_name(unsigned code) {
       {GL_INVALID_FRAMEBUFFER_OPERATION, "GL_INVALID_FRAMEBUFFER_OPERATION"},
       {GL_OUT_OF_MEMORY, "GL_OUT_OF_MEMORY"},
       {GL_CONTEXT_LOST, "GL_CONTEXT_LOST: the driver was reset"},
+      {GL_FRAMEBUFFER_UNSUPPORTED, "GL_FRAMEBUFFER_UNSUPPORTED"},
+      {GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT, "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT"},
+      {GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT, "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT"},
   }};
   const auto* const found = std::ranges::find(names, code, &Word<unsigned>::value);
   return found != names.end() ? std::string(found->name) : fmt::format("GL error {:#06x}", code);
@@ -204,7 +188,7 @@ struct Context::Impl {
   DebugLog log;
   Functions functions;
   ContextInfo info;
-  std::unique_ptr<NativeContext> native;
+  NativeContext native;
 
   Impl(Backend backend, int device) : native(open_native(backend, device)) {
     try {
@@ -219,8 +203,8 @@ struct Context::Impl {
   Impl& operator=(const Impl&) = delete;
   ~Impl() { leave(); }
 
-  [[nodiscard]] bool is_current() const { return current.native == native.get(); }
-  void become_current() const { switch_to({native.get(), &functions}); }
+  [[nodiscard]] bool is_current() const { return current.native == &native; }
+  void become_current() const { switch_to({&native, &functions}); }
   void leave() const {
     if (is_current()) switch_to({});
   }
@@ -228,8 +212,8 @@ struct Context::Impl {
   void load(Backend backend) {
     // OSMesa has some functions of GL_ARB_robustness only under their old names.
     const auto missing = load_functions(functions, [this](const char* name) {
-      const auto address = native->address_of(name);
-      return address != nullptr ? address : native->address_of((std::string(name) + "ARB").c_str());
+      const auto address = native.address_of(name);
+      return address != nullptr ? address : native.address_of((std::string(name) + "ARB").c_str());
     });
     const auto place = fmt::format("OpenGL by {}", backend_name(backend));
     // A loader may hand out an address for a function that the driver lacks, so the version has the last word.
@@ -270,9 +254,13 @@ Context::Context(const ContextRequest& request) {
                 "choose `--backend egl-device`");
   }
   require_address_space();
-  RestoreCurrent restore;
-  impl_ = request.backend ? std::make_unique<Impl>(*request.backend, request.device) : Impl::open_any();
-  restore.keep();
+  const Current before = current;
+  try {
+    impl_ = request.backend ? std::make_unique<Impl>(*request.backend, request.device) : Impl::open_any();
+  } catch (...) {
+    restore(before);
+    throw;
+  }
 }
 
 Context::Context(Context&&) noexcept = default;
@@ -303,7 +291,7 @@ void Context::check(std::string_view doing) const {
 }
 
 std::vector<BackendReport> probe_backends() {
-  const RestoreCurrent restore;
+  const Current before = current;
   std::vector<BackendReport> reports;
   const auto probe = [&reports](Backend backend, int device) {
     BackendReport report{.backend = backend, .device = device, .info = {}, .why_not = {}};
@@ -326,6 +314,7 @@ std::vector<BackendReport> probe_backends() {
     }
     for (int device = 0; device < devices; ++device) probe(backend, device);
   }
+  restore(before);
   return reports;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -123,33 +124,20 @@ EGLContext create_context(EGLDisplay display, const std::string& platform) {
   return context;
 }
 
-class EglContext final : public NativeContext {
- public:
-  EglContext(EGLenum kind, void* native, std::string platform)
-      : platform_(std::move(platform)),
-        display_(kind, native, platform_),
-        context_(create_context(display_.get(), platform_)) {}
-  ~EglContext() override { eglDestroyContext(display_.get(), context_); }
-
-  void make_current() override {
+NativeContext open_egl(EGLenum kind, void* native, const std::string& platform) {
+  const auto display = std::make_shared<const Display>(kind, native, platform);
+  const std::shared_ptr<void> context(create_context(display->get(), platform),
+                                      [display](EGLContext created) { eglDestroyContext(display->get(), created); });
+  const auto make_current = [=](EGLContext wanted) {
     eglBindAPI(EGL_OPENGL_API);
-    if (eglMakeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-      fail(platform_, fmt::format("the context cannot be made current ({})", egl_error_name()));
-    }
-  }
-  void release() noexcept override {
-    eglBindAPI(EGL_OPENGL_API);
-    eglMakeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  }
-  [[nodiscard]] auto address_of(const char* function) const -> void (*)() override {
-    return eglGetProcAddress(function);
-  }
-
- private:
-  std::string platform_;
-  Display display_;
-  EGLContext context_;
-};
+    return eglMakeCurrent(display->get(), EGL_NO_SURFACE, EGL_NO_SURFACE, wanted);
+  };
+  const auto require_current = [=] {
+    if (make_current(context.get()) == EGL_FALSE)
+      fail(platform, fmt::format("the context cannot be made current ({})", egl_error_name()));
+  };
+  return {require_current, [=] { make_current(EGL_NO_CONTEXT); }, eglGetProcAddress};
+}
 
 std::vector<EGLDeviceEXT> egl_devices() {
   // EGL_EXT_device_base is the older name of enumeration and query together; NVIDIA's driver lists it alone.
@@ -171,13 +159,13 @@ std::vector<EGLDeviceEXT> egl_devices() {
 
 }  // namespace
 
-std::unique_ptr<NativeContext> open_egl_surfaceless() {
+NativeContext open_egl_surfaceless() {
   const std::string platform = "EGL surfaceless";
   require_extension(EGL_NO_DISPLAY, platform, "EGL_MESA_platform_surfaceless");
-  return std::make_unique<EglContext>(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, platform);
+  return open_egl(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, platform);
 }
 
-std::unique_ptr<NativeContext> open_egl_device(int device) {
+NativeContext open_egl_device(int device) {
   const auto devices = egl_devices();
   if (devices.empty()) fail("EGL device", "the machine has no EGL device");
   if (device < 0 || static_cast<std::size_t>(device) >= devices.size()) {
@@ -185,8 +173,8 @@ std::unique_ptr<NativeContext> open_egl_device(int device) {
                 fmt::format("no such device; there are {}, counted from 0", devices.size()),
                 "`footprint info` lists them");
   }
-  return std::make_unique<EglContext>(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(device)],
-                                      fmt::format("EGL device {}", device));
+  return open_egl(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(device)],
+                  fmt::format("EGL device {}", device));
 }
 
 int egl_device_count() { return static_cast<int>(egl_devices().size()); }

@@ -47,19 +47,6 @@ GLenum read_format(int channels) {
   return formats[static_cast<std::size_t>(channels - 1)];
 }
 
-std::string_view completeness_name(GLenum status) {
-  switch (status) {
-    case GL_FRAMEBUFFER_UNSUPPORTED:
-      return "GL_FRAMEBUFFER_UNSUPPORTED";
-    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
-      return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
-    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
-      return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
-    default:
-      return "incomplete";
-  }
-}
-
 Sampler make_sampler(GLint magnified, GLint minified, GLenum wrap_s, GLenum wrap_t) {
   Sampler sampler = Sampler::make();
   const GLuint name = sampler.name();
@@ -166,8 +153,8 @@ RenderTarget::RenderTarget(int width, int height, std::span<const GLenum> color_
   const GLenum status = api().CheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     throw Error(ErrorKind::machine, "render target",
-                fmt::format("the driver cannot draw into {}x{} with {} colour attachments{}: {} ({:#06x})", width,
-                            height, color_formats.size(), depth ? " and depth" : "", completeness_name(status), status),
+                fmt::format("the driver cannot draw into {}x{} with {} colour attachments{}: {}", width, height,
+                            color_formats.size(), depth ? " and depth" : "", gl_error_name(status)),
                 "use another backend");
   }
 }

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "renderer/core/error.hpp"
 #include "renderer/gl/native_context.hpp"
@@ -83,43 +85,34 @@ class OwnDriverOnly {
   std::optional<std::string> hidden_;
 };
 
-class OsMesaContext final : public NativeContext {
- public:
-  OsMesaContext() {
-    constexpr std::array<int, 9> attributes = {osmesa_format,
-                                               osmesa_rgba,
-                                               osmesa_profile,
-                                               osmesa_core_profile,
-                                               osmesa_major_version,
-                                               4,
-                                               osmesa_minor_version,
-                                               5,
-                                               0};
-    const OwnDriverOnly own_driver_only;
-    context_ = library_.create_context(attributes.data(), nullptr);
-    if (context_ == nullptr) fail("the library gives no OpenGL 4.5 core context");
-  }
-  ~OsMesaContext() override { library_.destroy_context(context_); }
-
-  void make_current() override {
-    if (library_.make_current(context_, buffer_.data(), gl_unsigned_byte, buffer_side, buffer_side) == 0) {
-      fail("the context cannot be made current");
-    }
-  }
-  void release() noexcept override { library_.make_current(nullptr, nullptr, 0, 0, 0); }
-  [[nodiscard]] auto address_of(const char* function) const -> void (*)() override {
-    return library_.get_proc_address(function);
-  }
-
- private:
-  const Library& library_ = Library::instance();
-  OsMesaHandle context_ = nullptr;
-  /// OSMesa insists on a default framebuffer; nothing draws into it.
-  std::array<unsigned char, std::size_t{4} * buffer_side * buffer_side> buffer_{};
-};
+OsMesaHandle create_context(const Library& library) {
+  constexpr std::array<int, 9> attributes = {osmesa_format,
+                                             osmesa_rgba,
+                                             osmesa_profile,
+                                             osmesa_core_profile,
+                                             osmesa_major_version,
+                                             4,
+                                             osmesa_minor_version,
+                                             5,
+                                             0};
+  const OwnDriverOnly own_driver_only;
+  OsMesaHandle context = library.create_context(attributes.data(), nullptr);
+  if (context == nullptr) fail("the library gives no OpenGL 4.5 core context");
+  return context;
+}
 
 }  // namespace
 
-std::unique_ptr<NativeContext> open_osmesa() { return std::make_unique<OsMesaContext>(); }
+NativeContext open_osmesa() {
+  const Library& library = Library::instance();
+  const std::shared_ptr<OsMesaContextTag> context(create_context(library), library.destroy_context);
+  // OSMesa insists on a default framebuffer; nothing draws into it.
+  const auto buffer = std::make_shared<std::vector<unsigned char>>(std::size_t{4} * buffer_side * buffer_side);
+  const auto make_current = [&library, context, buffer] {
+    if (library.make_current(context.get(), buffer->data(), gl_unsigned_byte, buffer_side, buffer_side) == 0)
+      fail("the context cannot be made current");
+  };
+  return {make_current, [&library] { library.make_current(nullptr, nullptr, 0, 0, 0); }, library.get_proc_address};
+}
 
 }  // namespace footprint::gl

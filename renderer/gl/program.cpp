@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <initializer_list>
-#include <optional>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/gl/objects.hpp"
 
 namespace footprint::gl {
@@ -25,14 +25,8 @@ struct Stage {
 };
 
 std::string_view stage_name(GLenum type) {
-  switch (type) {
-    case GL_VERTEX_SHADER:
-      return "vertex shader";
-    case GL_FRAGMENT_SHADER:
-      return "fragment shader";
-    default:
-      return "compute shader";
-  }
+  if (type == GL_COMPUTE_SHADER) return "compute shader";
+  return type == GL_VERTEX_SHADER ? "vertex shader" : "fragment shader";
 }
 
 /// A line by the compiler's count: the number of a source string (0 without #line) and of a line in it.
@@ -40,61 +34,40 @@ using Location = std::pair<int, int>;
 
 struct SourceLine {
   Location location;
-  std::string_view text;
+  std::string text;
 };
 
-/// Takes the first line off `text`, without its end.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t length = text.find('\n');
-  const std::string_view line = text.substr(0, length);
-  text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
-  return line;
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines = parts_of(text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
 }
 
-/// Takes `word` off the front of `text`, spaces before it too, if it is there.
-bool take_word(std::string_view& text, std::string_view word) {
-  const std::size_t start = text.find_first_not_of(" \t");
-  if (start == std::string_view::npos || !text.substr(start).starts_with(word)) return false;
-  text.remove_prefix(start + word.size());
-  return true;
-}
-
-/// Takes a whole number off the front of `text`, spaces before it too, if there is one.
-std::optional<int> take_number(std::string_view& text) {
-  std::string_view rest = text;
-  take_word(rest, "");
-  int number = 0;
-  const auto [end, failure] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  if (failure != std::errc()) return std::nullopt;
-  text = rest.substr(static_cast<std::size_t>(end - rest.data()));
-  return number;
-}
+int number_in(const std::ssub_match& digits) { return parse_whole_of<int>(digits.str()).value_or(0); }
 
 /// The lines of a shader with the numbers that the compiler gives them.
 std::vector<SourceLine> number_lines(std::string_view source) {
+  static const std::regex directive(R"(^\s*#\s*line\s+(\d+)(?:\s+(\d+))?)");
   std::vector<SourceLine> lines;
   Location next{0, 1};
-  while (!source.empty()) {
-    const std::string_view line = take_line(source);
+  for (const std::string& line : lines_of(source)) {
     lines.push_back({next, line});
     ++next.second;
-    std::string_view directive = line;
-    if (!take_word(directive, "#") || !take_word(directive, "line")) continue;
-    next.second = take_number(directive).value_or(next.second);
-    next.first = take_number(directive).value_or(next.first);
+    std::smatch match;
+    if (!std::regex_search(line, match, directive)) continue;
+    next.second = number_in(match[1]);
+    if (match[2].matched) next.first = number_in(match[2]);
   }
   return lines;
 }
 
 /// The locations that a log names. Mesa writes "0:12(5): error", NVIDIA "0(12) : error", others "ERROR: 0:12: ".
 std::set<Location> locations_in(std::string_view log) {
+  static const std::regex place(R"(^\s*(?:ERROR:|WARNING:)?\s*(\d+)\s*[:(]\s*(\d+))");
   std::set<Location> locations;
-  while (!log.empty()) {
-    std::string_view line = take_line(log);
-    if (!take_word(line, "ERROR:")) take_word(line, "WARNING:");
-    const auto source = take_number(line);
-    if (!source || !(take_word(line, ":") || take_word(line, "("))) continue;
-    if (const auto number = take_number(line)) locations.emplace(*source, *number);
+  std::smatch match;
+  for (const std::string& line : lines_of(log)) {
+    if (std::regex_search(line, match, place)) locations.emplace(number_in(match[1]), number_in(match[2]));
   }
   return locations;
 }

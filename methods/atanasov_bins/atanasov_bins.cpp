@@ -85,8 +85,15 @@ Image widths_of_texels(const Material& material, const glm::ivec2& size) {
 // The slope variance of normals that fill a bin evenly, doubled because they may be at its corners.
 double spread_in_bin(int across) { return bin_solid_angle(across) / 6.0; }
 
-// Classes in equal steps of the logarithm of the variance, from narrow to wide texels. The first class includes all
-// narrower texels.
+// A class of texels with lobes of similar width: bins along an edge, the largest slope variance of a list's lobe in
+// addition to that of the base lobe, and the least variance of its texels.
+struct WidthClass {
+  int across = 1;
+  double widest = 0.0;
+  double from = 0.0;
+};
+
+// Classes in equal steps of the logarithm of the variance, narrow ones first. The first has all narrower texels.
 std::vector<WidthClass> classes_of(const Image& widths, int most_across) {
   const double low = low_variance(widths.texels), high = *std::ranges::max_element(widths.texels);
   const double range = std::log(high / low);
@@ -110,6 +117,57 @@ TexelClasses texels_of(std::span<const WidthClass> classes, const Image& widths)
   return out;
 }
 
+// The least power of two whose square is at least the count: 2^28 integers fit 16384 x 16384.
+int columns_for(std::size_t count) {
+  int columns = 1;
+  while (static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) < count) columns *= 2;
+  return columns;
+}
+
+void add_words(std::string name, std::span<const std::uint32_t> words, Prefiltered& out) {
+  out.textures.push_back(make_word_texture(std::move(name), columns_for(words.size()), words));
+}
+
+void add_table(std::string name, Image image, Prefiltered& out) {
+  out.textures.push_back(make_texture(std::move(name), {std::move(image)}, Storage::fp32, {}));
+  out.textures.back().filter = TextureFilter::nearest;
+}
+
+// `bins_texels`, `bins_forest`, `bins_lists`, `bins_hash` and their scalars.
+void add_inverse_map(const InverseMap& map, Prefiltered& out) {
+  std::vector<std::uint32_t> lists;
+  for (const TexelList& list : map.lists) lists.insert(lists.end(), {list.first, list.root});
+  lists.push_back(static_cast<std::uint32_t>(map.texels.size()));
+  const std::vector<std::uint32_t> hash = hashed_lists(map);
+  add_words("bins_texels", map.texels, out);
+  add_words("bins_forest", map.forest, out);
+  add_words("bins_lists", lists, out);
+  add_words("bins_hash", hash, out);
+  out.scalars["bins_hash_slots"] = static_cast<float>(hash.size() / 2);  // of two integers each
+  out.scalars["bins_invalid_list"] = map.has_invalid() ? static_cast<float>(map.lists.size() - 1) : -1.0F;
+}
+
+// A texture of `channels` values for each list, list by list.
+void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out) {
+  const std::size_t lists = values.size() / static_cast<std::size_t>(channels);
+  const auto columns = static_cast<std::size_t>(columns_for(lists));
+  const std::size_t rows = (std::max<std::size_t>(lists, 1) + columns - 1) / columns;
+  Image image(static_cast<int>(columns), static_cast<int>(rows), channels);
+  std::ranges::copy(values, image.texels.begin());
+  add_table(std::move(name), std::move(image), out);
+}
+
+// `bins_classes`: across, widest, from.
+void add_classes(std::span<const WidthClass> classes, Prefiltered& out) {
+  Image image(static_cast<int>(classes.size()), 1, 3);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const glm::vec3 values(classes[i].across, classes[i].widest, classes[i].from);
+    std::copy_n(&values.x, 3, &image.texels[3 * i]);
+  }
+  add_table("bins_classes", std::move(image), out);
+  out.scalars["bins_class_count"] = static_cast<float>(classes.size());
+}
+
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& progress) {
   Prefiltered out;
@@ -126,7 +184,8 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   if (by_width) out.scalars["bins_own_roughness"] = knows_widths(material) ? 1.0F : 0.0F;
   const Image normals = normal_map_of(material);
   const BinMap bins = bin_map(normals, across, progress);
-  out.textures.push_back(bin_map_texture(bins, normal_coordinates(material)));
+  out.textures.push_back(make_word_texture("bins_map", bins.width, bins.normals));
+  out.textures.back().coordinates = normal_coordinates(material);
   std::vector<WidthClass> classes{{.across = across, .widest = spread_in_bin(across), .from = 0.0}};
   TexelClasses texels;
   Image widths(normals.width, normals.height, 1);
@@ -143,7 +202,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
     add_list_values("bins_roundings", {&roundings.front().x, 2 * roundings.size()}, 2, out);
     out.scalars["bins_list_count"] = static_cast<float>(inverse.lists.size());
     add_classes(classes, out);
-    out.textures.push_back(word_texture("bins_moments", node_moments(inverse, bins, texels)));
+    add_words("bins_moments", node_moments(inverse, bins, texels), out);
   }
   out.scalars["bins_wrap_u"] = wrap_number(normal_coordinates(material).wrap[0]);
   out.scalars["bins_wrap_v"] = wrap_number(normal_coordinates(material).wrap[1]);

@@ -87,8 +87,7 @@ float valueAbout(float variance, vec3 normal, float spread, Query q) {
 }
 //? end
 
-// Applies the factors that are the same for all normals. `value` is their mean density or, for facets with lobes, their
-// mean reflectance.
+// Applies the factors of all normals. `value` is their mean density or, for facets with lobes, their mean reflectance.
 float finishedValue(float variance, float value, Query q) {
   if (!q.reflects || value == 0.0) return value;
 //? if surface_microfacets

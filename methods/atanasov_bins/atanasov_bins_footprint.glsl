@@ -1,5 +1,4 @@
-// Sums all texels under a footprint: texel by texel from the bin map if it is small, otherwise by bins from the inverse
-// bin map, whose trees count texels.
+// Sums the texels under a footprint: one by one if it is small, otherwise by bins, whose trees count texels.
 //? include atanasov_bins_walk.glsl
 
 struct Effective {
@@ -57,8 +56,7 @@ Sum notWhole() {
 }
 
 //? if roughness_lobe and roughness_variation
-// The variance of the roughness texels under a texel of the normal map, or the footprint's mean if the maps have
-// different coordinates.
+// The variance of the roughness texels under a texel; the footprint's mean if the maps have different coordinates.
 float varianceAt(Effective e, ivec2 texel) {
   if (bins_own_roughness == 0.0) return e.variance;
   countLookups(1);
@@ -166,8 +164,7 @@ Sum sumBeyond(Effective e, Region r, Query q, float rounds, inout bool finished)
   return sum;
 }
 //? if roughness_bin
-// The density of a bin over a large footprint: the share of the area in its list. The texels without a normal are a
-// list, too, which is subtracted from the area.
+// A bin's density over a large footprint: its list's share of the area, less that of the list without normals.
 float listCount(Effective e, Query q, float rounds) { return 1.0; }
 
 Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
@@ -191,8 +188,7 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
 //? include atanasov_bins_lobes.glsl
 //? end
 
-// The most texels that are looked up one by one, because that costs less than walking `lists` lists with about 64 steps
-// each.
+// The most texels that are looked up one by one: less than walking `lists` lists costs, with about 64 steps each.
 float texelsWorth(float lists, float rounds) { return min(64.0 * lists, texelRounds(rounds)); }
 
 // The mean over the footprint. If all texels lack a normal it is that of a flat surface.
@@ -237,8 +233,7 @@ vec4 sumOfNormals(Region r) {
   return sum;
 }
 
-// The mean normal for the diffuse term: from the texels of a small footprint, or from a mip chain of means, which
-// begins at the level of 4 x 4 texels.
+// The mean normal for the diffuse term: of a small footprint's texels, or from means of 4 x 4 texels and more.
 vec3 meanUnder(Footprint f) {
   vec4 sum = vec4(0.0);
   int count = regionCount(f);
@@ -255,8 +250,7 @@ vec3 meanNormal(Effective e) { return e.mean; }
 //? end
 
 //? if lobes_listed
-// Draws texels under a footprint (section 2.1) at points that fill it evenly. A region with no more texels than draws
-// contributes all of them, by their areas.
+// Draws texels under a footprint (section 2.1) at points that fill it evenly; few texels count by their areas.
 
 // All regions share the draws.
 int drawsEach(Footprint f) { return max(int(option_draws) / regionCount(f), 1); }

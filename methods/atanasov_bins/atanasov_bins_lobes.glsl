@@ -1,6 +1,5 @@
-// Lobes over a large footprint: the bins about h by their lists, the other texels by draws. The lists for a half vector
-// are those of the bins that its lobes reach, as far as rounds suffice. The remainder, tails and much wider lobes, is
-// summed over drawn texels.
+// Lobes over a large footprint: the lists of the bins that lobes about h reach, as far as rounds suffice. The
+// remainder, tails and much wider lobes, is summed over drawn texels.
 
 // A class of texels with lobes of similar width.
 struct WidthClass {
@@ -23,8 +22,7 @@ struct Disc {
   bool whole;      // no lobe beyond the cap reaches h
 };
 
-// The angle beyond which a lobe is below 1e-4 of its peak: where 1 - cos is 4.6 alpha^2. A ten-thousandth of a Gaussian
-// lobe is beyond it. GGX's tails reach everywhere.
+// The angle beyond which a lobe is below 1e-4 of its peak: 1 - cos is 4.6 alpha^2. GGX's tails reach everywhere.
 float lobeReach(float variance) {
   return pi;                                             //? if distribution_ggx and roughness_lobe
   return 2.0 * asin(min(2.1448 * sqrt(variance), 1.0));  //? else

@@ -64,8 +64,7 @@ void addTexel(inout ListSum sum, ivec2 texel, float area, ListBin bin) {
 }
 
 // One sample in each eighth of a node's texels, in 128ths, at uneven distances because maps have patterns. The offset
-// of 5 / 12 into each is its middle in the order of the tree: 0.0110101... has the coordinates 0.0111... and 0.1000...,
-// whose digits alternate in it.
+// of 5 / 12 into each is its middle in the order of the tree (0.0110101... is 0.0111... and 0.1000...).
 const uint samples[8] = uint[](5u, 29u, 34u, 58u, 71u, 95u, 100u, 123u);
 
 ivec2 sampledTexel(uint begin, uint texels, int i) {
@@ -169,16 +168,14 @@ Node texelNode(uint i) {
   return Node(0u, i + 1u, texel, texel + 1);
 }
 
-// The side below which a node at the border counts by samples: a quarter of the side of a square as large as the
-// footprint.
+// The side below which a node at the border counts by samples: a quarter of that of a square as large as the footprint.
 float sampledSide(Region r) {
   return 0.0;                     //? if border_texels
   return 0.25 * sqrt(areaOf(r));  //? else
 }
 
 // Whether the walk is depth first. Otherwise it visits large nodes first, so that all remaining nodes have one size
-// when rounds run out. The order does not matter only if rounds suffice for every texel at the border, about 3 per
-// texel of its length.
+// when rounds run out. They suffice for every texel at the border at about 3 per texel of its length.
 bool isDepthFirst(Region r, float rounds) {
   return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;  //? if border_texels
   return false;                                                     //? else

@@ -1,15 +1,15 @@
-// A counting sort by bin, followed by a tree for each long list. Texels are partitioned in place, and halves of long
-// lists in parallel.
+// Texels sorted by bin, and a tree for each long list, whose halves are partitioned in place and in parallel.
 #include "methods/atanasov_bins/inverse_map.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "renderer/core/error.hpp"
@@ -19,70 +19,32 @@ namespace footprint::atanasov_bins {
 namespace {
 
 constexpr int most_texels_along = 16384;        // guaranteed by OpenGL 4.5
-constexpr std::size_t parts = 8;                // of the counting sort, each with its own counts
 constexpr std::size_t texels_per_task = 65536;  // fewer are arranged by one thread
 
-// The first of part `i` of `count` elements.
-std::size_t part_begin(std::size_t elements, std::size_t i) { return elements * i / parts; }
-
-// The place where a texel's bin is counted: the bins of all classes, class by class, then texels without a normal.
-class KeyOrder {
- public:
-  KeyOrder(const BinMap& map, const TexelClasses& classes) : map_(&map), classes_(&classes), across_(classes.across) {
-    if (across_.empty()) across_.push_back(map.across);
-    for (const int m : across_)
-      begins_.push_back(begins_.back() + static_cast<std::size_t>(m) * static_cast<std::size_t>(m));
-  }
-  [[nodiscard]] std::size_t count() const { return begins_.back() + 1; }
-  [[nodiscard]] std::size_t of_texel(std::size_t i) const {
-    const std::uint32_t normal = map_->normals[i];
-    if (normal == no_normal) return begins_.back();
-    const std::size_t own = classes_->of_texel.empty() ? 0 : classes_->of_texel[i];
-    return begins_[own] + bin_of_packed(normal, across_[own]);
-  }
-  [[nodiscard]] std::uint32_t key(std::size_t place) const {
-    if (place == begins_.back()) return no_key;
-    const auto own = static_cast<std::size_t>(std::ranges::upper_bound(begins_, place) - begins_.begin()) - 1;
-    return bin_key(own, static_cast<std::uint32_t>(place - begins_[own]));
-  }
-
- private:
-  const BinMap* map_;
-  const TexelClasses* classes_;
-  std::vector<int> across_;
-  std::vector<std::size_t> begins_{0};  // of each class, and the end
-};
-
-// Replaces the counts of each part and place by the begin of the part's texels of the bin, and appends the lists to
-// `lists`.
-void add_up(std::vector<std::vector<std::uint32_t>>& counts, const KeyOrder& order, std::vector<TexelList>& lists) {
-  std::uint32_t next = 0;
-  for (std::size_t place = 0; place < counts.front().size(); ++place) {
-    const std::uint32_t first = next;
-    for (std::vector<std::uint32_t>& part : counts) {
-      const std::uint32_t count = part[place];
-      part[place] = next;
-      next += count;
-    }
-    if (next > first) lists.push_back({.key = order.key(place), .first = first, .root = 0});
-  }
+// Bins along an edge of a class.
+int across_of(const BinMap& map, const TexelClasses& classes, std::size_t own) {
+  return classes.across.empty() ? map.across : classes.across[own];
 }
 
-// Sorts texels by place, those of one place row by row.
-void sort_by_bin(const BinMap& map, const KeyOrder& order, InverseMap& out) {
-  const auto width = static_cast<std::size_t>(map.width);
-  std::vector<std::vector<std::uint32_t>> counts(parts);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    counts[p].assign(order.count(), 0);
-    for (std::size_t i = part_begin(map.normals.size(), p); i < part_begin(map.normals.size(), p + 1); ++i)
-      ++counts[p][order.of_texel(i)];
+// Sorts texels by the keys of their bins, those of one key row by row, and lists the keys.
+void sort_by_bin(const BinMap& map, const TexelClasses& classes, InverseMap& out) {
+  std::vector<std::uint64_t> order(map.normals.size());  // key and number of each texel
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+    const std::size_t own = classes.of_texel.empty() ? 0 : classes.of_texel[i];
+    const std::uint32_t normal = map.normals[i];
+    const std::uint64_t key =
+        normal == no_normal ? no_key : bin_key(own, bin_of_packed(normal, across_of(map, classes, own)));
+    order[i] = key << 32U | i;
   });
-  add_up(counts, order, out.lists);
-  out.texels.resize(map.normals.size());
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    for (std::size_t i = part_begin(map.normals.size(), p); i < part_begin(map.normals.size(), p + 1); ++i)
-      out.texels[counts[p][order.of_texel(i)]++] = static_cast<std::uint32_t>(i / width << 16U | i % width);
-  });
+  tbb::parallel_sort(order.begin(), order.end());
+  out.texels.reserve(order.size());
+  for (const std::uint64_t texel : order) {
+    const auto key = static_cast<std::uint32_t>(texel >> 32U), number = static_cast<std::uint32_t>(texel);
+    if (out.lists.empty() || out.lists.back().key != key)
+      out.lists.push_back({.key = key, .first = static_cast<std::uint32_t>(out.texels.size()), .root = 0});
+    const auto width = static_cast<std::uint32_t>(map.width);
+    out.texels.push_back(number / width << 16U | number % width);
+  }
 }
 
 // Appends space for a node to the forest, and returns its position.
@@ -163,14 +125,19 @@ void plant_forest(InverseMap& out, const Progress& progress) {
   }
 }
 
-// The mean of `value` over the texels of every list.
+// The number of a texel of InverseMap::texels, row by row.
+std::size_t number_of(const InverseMap& map, std::uint32_t texel) {
+  return static_cast<std::size_t>(texel >> 16U) * static_cast<std::size_t>(map.width) + (texel & 0xFFFFU);
+}
+
+// The mean of `value` over the numbers of every list's texels.
 template <class Mean, class Value>
 std::vector<Mean> means_over_lists(const InverseMap& map, const Value& value) {
   std::vector<Mean> out(map.lists.size());
   tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
-    decltype(value(0, 0)) sum{};
+    decltype(value(0)) sum{};
     for (const std::uint32_t texel : std::span(map.texels).subspan(map.lists[i].first, map.count_of(i)))
-      sum += value(static_cast<int>(texel & 0xFFFFU), static_cast<int>(texel >> 16U));
+      sum += value(number_of(map, texel));
     out[i] = Mean(sum / static_cast<double>(map.count_of(i)));
   });
   return out;
@@ -180,6 +147,16 @@ struct Sums {
   glm::dvec2 offset{0.0};
   glm::dvec2 squares{0.0};
 };
+
+// Mean and variance of normals in a bin as one integer: 12 bits for each coordinate of the mean, relative to the middle
+// of the bin, in bins, and 8 for the deviation, rounded. The variance is the mean over both axes.
+std::uint32_t packed_moments(const glm::dvec2& mean, double variance) {
+  const auto rounded = [](double value, double most) {
+    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * most));
+  };
+  return rounded(mean.x + 0.5, 4095.0) | rounded(mean.y + 0.5, 4095.0) << 12U |
+         rounded(2.0 * std::sqrt(std::max(variance, 0.0)), 255.0) << 24U;
+}
 
 // Computes the moments of the nodes of one list's tree.
 struct MomentsOfNodes {
@@ -203,7 +180,7 @@ struct MomentsOfNodes {
     const Sums sums{lower.offset + upper.offset, lower.squares + upper.squares};
     const glm::dvec2 mean = sums.offset / static_cast<double>(end - first);
     const glm::dvec2 variance = sums.squares / static_cast<double>(end - first) - mean * mean;
-    out[at] = packed_moments({mean, 0.5 * (variance.x + variance.y)});
+    out[at] = packed_moments(mean, 0.5 * (variance.x + variance.y));
     return sums;
   }
 
@@ -211,9 +188,8 @@ struct MomentsOfNodes {
     const glm::dvec2 middle = glm::dvec2(bin % across, bin / across) + 0.5;
     Sums sums;
     for (std::uint32_t i = first; i < end; ++i) {
-      const std::uint32_t place = map.texels[i];
-      const std::size_t texel = static_cast<std::size_t>(place >> 16U) * static_cast<std::size_t>(map.width);
-      const glm::dvec2 offset = place_in_square(bins.normals[texel + (place & 0xFFFFU)]) * double(across) - middle;
+      const std::uint32_t packed = bins.normals[number_of(map, map.texels[i])];
+      const glm::dvec2 offset = place_in_square(packed) * double(across) - middle;
       sums.offset += offset;
       sums.squares += offset * offset;
     }
@@ -221,7 +197,42 @@ struct MomentsOfNodes {
   }
 };
 
+constexpr std::uint32_t places = 65536;  // along an axis
+
+// Places [first, last] are those p for which floor(p m / places) is the bin. x = 1, or beyond, is in the last bin.
+std::uint32_t place_along(double x, int m) {
+  const auto bin = static_cast<std::uint32_t>(std::clamp(static_cast<int>(std::floor(x * m)), 0, m - 1));
+  const auto count = static_cast<std::uint32_t>(m);
+  const std::uint32_t first = (bin * places + count - 1) / count;
+  const std::uint32_t last = ((bin + 1) * places + count - 1) / count - 1;
+  const auto place = static_cast<std::uint32_t>(std::clamp(std::floor(x * places), 0.0, places - 1.0));
+  return std::clamp(place, first, std::min(last, places - 2));  // places - 1 is for no_normal
+}
+
 }  // namespace
+
+double bin_solid_angle(int m) { return 2.0 * std::numbers::pi / (static_cast<double>(m) * m); }
+
+std::uint32_t packed_normal(const glm::dvec3& normal, int m) {
+  const glm::dvec2 point = hemisphere_to_square(normal);
+  return place_along(point.y, m) << 16U | place_along(point.x, m);
+}
+
+std::uint32_t bin_of_packed(std::uint32_t packed, int m) {
+  const auto count = static_cast<std::uint32_t>(m);
+  return ((packed >> 16U) * count >> 16U) * count + ((packed & 0xFFFFU) * count >> 16U);
+}
+
+glm::dvec2 place_in_square(std::uint32_t packed) {
+  return (glm::dvec2(packed & 0xFFFFU, packed >> 16U) + 0.5) / double{places};
+}
+
+int bins_across_for(double variance, double share, int most) {
+  const double width = share * std::sqrt(std::max(variance, 1e-12));
+  const double across = std::sqrt(2.0 * std::numbers::pi) / width;
+  const int odd = across >= most ? most : 2 * static_cast<int>(std::ceil(0.5 * (across - 1.0))) + 1;
+  return std::clamp(odd, std::min(5, most), most);
+}
 
 Halves halves_of(const TexelRect& rect) {
   const glm::ivec2 sides = rect.upper - rect.lower;
@@ -245,16 +256,11 @@ BinMap bin_map(const Image& normals, int across, const Progress& progress) {
   progress("binning normals", 0.0);
   BinMap out{.width = normals.width, .height = normals.height, .across = across, .normals = {}};
   out.normals.resize(normals.texel_count());
-  tbb::parallel_for(tbb::blocked_range<int>(0, normals.height, 16), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) {
-      std::uint32_t* const row = out.normals.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width);
-      for (int x = 0; x < out.width; ++x) {
-        const std::span<const float> texel = normals.at(x, y);
-        const glm::dvec3 normal(texel[0], texel[1], texel[2]);
-        const bool valid = texel[3] >= 0.5F && glm::dot(normal, normal) > 0.0;
-        row[x] = valid ? packed_normal(glm::normalize(normal), across) : no_normal;
-      }
-    }
+  tbb::parallel_for(std::size_t{0}, out.normals.size(), [&](std::size_t i) {
+    const float* const texel = &normals.texels[4 * i];
+    const glm::dvec3 normal(texel[0], texel[1], texel[2]);
+    const bool valid = texel[3] >= 0.5F && glm::dot(normal, normal) > 0.0;
+    out.normals[i] = valid ? packed_normal(glm::normalize(normal), across) : no_normal;
   });
   return out;
 }
@@ -262,7 +268,7 @@ BinMap bin_map(const Image& normals, int across, const Progress& progress) {
 InverseMap inverse_of(const BinMap& map, const Progress& progress, const TexelClasses& classes) {
   InverseMap out{.width = map.width, .height = map.height, .texels = {}, .lists = {}, .forest = {}};
   progress("sorting texels", 0.0);
-  sort_by_bin(map, KeyOrder(map, classes), out);
+  sort_by_bin(map, classes, out);
   plant_forest(out, progress);
   return out;
 }
@@ -284,21 +290,12 @@ std::vector<std::uint32_t> hashed_lists(const InverseMap& map) {
   return table;
 }
 
-std::uint32_t packed_moments(const BinMoments& moments) {
-  const auto rounded = [](double value, double most) {
-    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * most));
-  };
-  const double deviation = std::sqrt(std::max(moments.variance, 0.0));
-  return rounded(moments.mean.x + 0.5, 4095.0) | rounded(moments.mean.y + 0.5, 4095.0) << 12U |
-         rounded(2.0 * deviation, 255.0) << 24U;
-}
-
 std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins, const TexelClasses& classes) {
   std::vector<std::uint32_t> out(map.forest.size());
   tbb::parallel_for(std::size_t{0}, map.lists.size(), [&](std::size_t i) {
     const TexelList& list = map.lists[i];
     if (list.key == no_key) return;
-    const int across = classes.across.empty() ? bins.across : classes.across[list.key >> bin_bits];
+    const int across = across_of(bins, classes, list.key >> bin_bits);
     const std::uint32_t bin = list.key & ((1U << bin_bits) - 1U);
     MomentsOfNodes{map, bins, bin, static_cast<std::uint32_t>(across), out}.add(list.root, list.first,
                                                                                 list.first + map.count_of(i));
@@ -307,17 +304,15 @@ std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bin
 }
 
 std::vector<glm::vec2> list_roundings(const InverseMap& map, const BinMap& bins, const Image& normals) {
-  return means_over_lists<glm::vec2>(map, [&](int x, int y) {
-    const std::uint32_t packed =
-        bins.normals[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
-    if (packed == no_normal) return glm::dvec2(0.0);
-    const std::span<const float> n = normals.at(x, y);
-    return hemisphere_to_square(glm::normalize(glm::dvec3(n[0], n[1], n[2]))) - place_in_square(packed);
+  return means_over_lists<glm::vec2>(map, [&](std::size_t i) {
+    if (bins.normals[i] == no_normal) return glm::dvec2(0.0);
+    const float* const n = &normals.texels[4 * i];
+    return hemisphere_to_square(glm::normalize(glm::dvec3(n[0], n[1], n[2]))) - place_in_square(bins.normals[i]);
   });
 }
 
 std::vector<float> list_means(const InverseMap& map, const Image& values) {
-  return means_over_lists<float>(map, [&](int x, int y) { return static_cast<double>(values.at(x, y)[0]); });
+  return means_over_lists<float>(map, [&](std::size_t i) { return static_cast<double>(values.texels[i]); });
 }
 
 }  // namespace footprint::atanasov_bins

@@ -1,14 +1,12 @@
 // The bin map of a normal map and its inverse, which lists the texels of each bin. Trees count the texels under a
-// footprint without visiting each (Atanasov et al. 2020, section 2.3). Also the textures and scalars of both.
+// footprint without visiting each (Atanasov et al. 2020, section 2.3).
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "renderer/bake/prefiltered.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/image/image.hpp"
 
@@ -22,8 +20,7 @@ struct BinMap {
   std::vector<std::uint32_t> normals;
 };
 
-/// The bin map of a normal map of four channels (as Material::normal_map). Errors (usage): more than 16384 texels along
-/// an edge.
+/// The bin map of a map as Material::normal_map. Errors (usage): more than 16384 texels along an edge.
 [[nodiscard]] BinMap bin_map(const Image& normals, int across, const Progress& progress);
 
 /// Classes of texels with lobes of similar width, each with bins of a suitable width.
@@ -55,8 +52,7 @@ struct TexelRect {
   glm::ivec2 upper{0};
 };
 
-/// The halves of a rectangle, split in the middle of the longer side (x if it is a square); the lower half is the
-/// smaller one.
+/// The halves of a rectangle, split in the middle of the longer side (x of a square); the lower one is smaller.
 struct Halves {
   bool along_x = true;
   int middle = 0;
@@ -98,30 +94,18 @@ struct Branches {
 [[nodiscard]] Branches branches_of(std::span<const std::uint32_t> forest, std::uint32_t at, std::uint32_t first,
                                    std::uint32_t end);
 
-/// The inverse of a bin map. Without classes there is one class with the map's own bins. Equal arguments give equal
-/// values at any number of threads.
+/// The inverse of a bin map; without classes one has the map's own bins. Equal results at any number of threads.
 [[nodiscard]] InverseMap inverse_of(const BinMap& map, const Progress& progress, const TexelClasses& classes = {});
 
-/// A hash table from key to list: slots of two integers, key and list, with open addressing. A search begins at
-/// `hash_slot` and ends at an empty slot, whose key is no_key.
+/// A hash table from key to list: slots of two integers, open addressing from `hash_slot`, empty ones have no_key.
 [[nodiscard]] std::vector<std::uint32_t> hashed_lists(const InverseMap& map);
 [[nodiscard]] std::uint32_t hash_slot(std::uint32_t key, std::uint32_t slots);
 
-/// The normals of texels of one bin: mean and variance of their points of the square, relative to the middle of the
-/// bin, in bins. The variance is the mean over both axes.
-struct BinMoments {
-  glm::dvec2 mean{0.0};
-  double variance = 0.0;
-};
-/// Moments as one integer: 12 bits for each coordinate of the mean and 8 for the deviation, rounded.
-[[nodiscard]] std::uint32_t packed_moments(const BinMoments& moments);
-
-/// The packed moments of every node of the forest, at its first integer. `classes` as for inverse_of.
+/// Mean and variance of the normals of every node within their bin, as one integer at its first. `classes` as above.
 [[nodiscard]] std::vector<std::uint32_t> node_moments(const InverseMap& map, const BinMap& bins,
                                                       const TexelClasses& classes = {});
 
-/// The mean rounding error of every list: that of the points of its texels' normals (four channels, as large as the
-/// map) in the unit square by 16 bits.
+/// The mean rounding error of every list: of its normals' points (`normals`: of the map) in the unit square by 16 bits.
 [[nodiscard]] std::vector<glm::vec2> list_roundings(const InverseMap& map, const BinMap& bins, const Image& normals);
 
 /// The mean of a value over the texels of every list (one channel, as large as the map).
@@ -136,8 +120,7 @@ inline constexpr std::uint32_t no_normal = 0xFFFFFFFFU;
 /// The solid angle of each of m x m bins, 2 pi / m^2 sr.
 [[nodiscard]] double bin_solid_angle(int m);
 
-/// A unit normal's point of the unit square, 16 bits per axis (x low), rounded within its bin. A normal below the
-/// horizon is in the nearest bin of the rim.
+/// A unit normal's point of the unit square, 16 bits per axis (x low), rounded within its bin, or one of the rim.
 [[nodiscard]] std::uint32_t packed_normal(const glm::dvec3& normal, int m);
 
 /// The bin of a packed normal, of m x m; `m` as in packed_normal.
@@ -149,32 +132,5 @@ inline constexpr std::uint32_t no_normal = 0xFFFFFFFFU;
 /// The odd number of bins along an edge at which a bin is `share` of a lobe's standard deviation wide: 5 to `most`.
 /// `variance` is the lobe's slope variance per axis.
 [[nodiscard]] int bins_across_for(double variance, double share, int most);
-
-/// A texture of integers, four bytes each, the lowest first. Its rows are as long as the least power of two whose
-/// square has room for all of them.
-[[nodiscard]] PrefilteredTexture word_texture(std::string name, std::span<const std::uint32_t> words);
-
-/// Integer i of such a texture.
-[[nodiscard]] std::uint32_t word_at(const PrefilteredTexture& texture, std::size_t i);
-
-/// The bin map, one integer per texel, with the coordinates of the normal map.
-[[nodiscard]] PrefilteredTexture bin_map_texture(const BinMap& map, const TextureCoordinates& coordinates);
-
-/// Adds `bins_texels`, `bins_forest`, `bins_lists`, `bins_hash` and their scalars.
-void add_inverse_map(const InverseMap& map, Prefiltered& out);
-
-/// Adds a texture of `channels` values for each list, list by list.
-void add_list_values(std::string name, std::span<const float> values, int channels, Prefiltered& out);
-
-/// A class of texels with lobes of similar width: bins along an edge, the largest slope variance of a list's lobe in
-/// addition to that of the base lobe, and the least variance of its texels.
-struct WidthClass {
-  int across = 1;
-  double widest = 0.0;
-  double from = 0.0;
-};
-
-/// Adds `bins_classes`: across, widest, from.
-void add_classes(std::span<const WidthClass> classes, Prefiltered& out);
 
 }  // namespace footprint::atanasov_bins

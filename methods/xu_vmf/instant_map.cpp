@@ -57,24 +57,6 @@ const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view na
 
 }  // namespace
 
-const gl::Texture& DrawnLevel::make_room(const gl::Texture& like, int width, int height, int layers) {
-  GLint format = 0;
-  gl::api().GetTextureLevelParameteriv(like.name(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
-  const bool fits = format == format_ && width <= texture_.width() && height <= texture_.height() && layers <= layers_;
-  if (fits) return texture_;
-  texture_ = gl::Texture();  // freed before the next one is allocated
-  texture_ = gl::Texture(static_cast<GLenum>(format), width, height, 1, layers);
-  format_ = format;
-  layers_ = layers;
-  return texture_;
-}
-
-void DrawnLevel::copy_to(const gl::Texture& map, int level, int first_layer, int layers) const {
-  const int width = std::max(map.width() >> level, 1), height = std::max(map.height() >> level, 1);
-  gl::api().CopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, map.name(), GL_TEXTURE_2D_ARRAY, level,
-                             0, 0, first_layer, width, height, layers);
-}
-
 Settings settings_of(const Options& options) {
   const std::string& j = options.word("j");
   return {.adaptive = j == "adaptive",
@@ -227,7 +209,22 @@ void InstantMap::draw_into(const FrameBuildJob& job, const Stage& stage, const L
   draw_recorded(job.record, draw.program, draw.lookups, [&] { triangle_.draw(); });
 }
 
-// Fills the coarser levels of a texture, if the job has it.
+// A texture with room for `layers` of `size` in the format of `like`.
+const gl::Texture& InstantMap::room_for(const gl::Texture& like, const glm::ivec2& size, int layers) const {
+  GLint format = 0;
+  gl::api().GetTextureLevelParameteriv(like.name(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+  if (format == drawn_format_ && size.x <= drawn_.width() && size.y <= drawn_.height() && layers <= drawn_layers_)
+    return drawn_;
+  drawn_ = gl::Texture();  // freed before the next one is allocated
+  drawn_ = gl::Texture(static_cast<GLenum>(format), size.x, size.y, 1, layers);
+  drawn_format_ = format;
+  drawn_layers_ = layers;
+  return drawn_;
+}
+
+// Fills the coarser levels of a texture, if the job has it, by way of a texture of their own. OpenGL allows drawing
+// into a level while another is read (4.5 core, section 9.3.1). But in Vulkan both need different layouts, and a driver
+// over it with one layout per texture breaks that rule. Mesa's zink does, as `scripts/validate_vulkan` shows.
 void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const {
   const GpuTexture* built = texture_of(job, name);
   if (built == nullptr) return;
@@ -244,9 +241,10 @@ void InstantMap::coarsen(const FrameBuildJob& job, std::string_view name) const 
       gl::api().UseProgram(stage.coarsen.name());
       gl::api().Uniform1i(stage.coarsen.uniform("first_layer"), first);
       const int drawn = static_cast<int>(stage.layers);
-      const gl::Texture& target = drawn_.make_room(*built->texture, size.x, size.y, drawn);
+      const gl::Texture& target = room_for(*built->texture, size, drawn);
       draw_into(job, stage, {stage.coarsen, stage.averaged * taps, target, size, 0});
-      drawn_.copy_to(*built->texture, level, first, drawn);
+      gl::api().CopyImageSubData(target.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, built->texture->name(),
+                                 GL_TEXTURE_2D_ARRAY, level, 0, 0, first, size.x, size.y, drawn);
       record_copy(job.record, target, static_cast<double>(size.x) * size.y * drawn);
       first += drawn;
     }

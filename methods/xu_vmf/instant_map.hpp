@@ -1,5 +1,4 @@
-// The passes that build the map of `xu_vmf` every frame: join lobes at the finest level, split them into parts of the
-// hemisphere, and average.
+// The passes that build the map of `xu_vmf`: join lobes at the finest level, split them into parts, and average.
 #pragma once
 
 #include <optional>
@@ -42,25 +41,6 @@ struct Settings {
 
 [[nodiscard]] Settings settings_of(const Options& options);
 
-/// A texture for drawing a level, as large as the largest level so far. OpenGL allows drawing into a level of a texture
-/// while another level is read (4.5 core, section 9.3.1, if base and maximum level separate them). But in Vulkan reads
-/// and draws need different layouts, and a driver over it with one layout per texture breaks that rule. Mesa's zink
-/// does, as `scripts/validate_vulkan` shows.
-class DrawnLevel {
- public:
-  /// Makes room for `layers` of width x height texels in the format of `like`. Errors (machine): as gl::Texture.
-  const gl::Texture& make_room(const gl::Texture& like, int width, int height, int layers);
-
-  /// Copies the drawn layers to layers `first_layer` and following of a level of `map`, which has the size of that
-  /// level.
-  void copy_to(const gl::Texture& map, int level, int first_layer, int layers) const;
-
- private:
-  gl::Texture texture_;
-  GLint format_ = 0;
-  int layers_ = 0;
-};
-
 /// The passes of one scene.
 class InstantMap final : public FrameBuild {
  public:
@@ -72,8 +52,7 @@ class InstantMap final : public FrameBuild {
   [[nodiscard]] std::optional<BuildInputs> valid_until_change_of() const override;
 
  private:
-  // A framebuffer with `layers` colour attachments, and the program that draws a level of as many layers from the finer
-  // level.
+  // A framebuffer of `layers` attachments, and the program that draws a level of as many layers from the finer one.
   struct Stage {
     gl::Framebuffer framebuffer;
     gl::Program coarsen;
@@ -94,6 +73,7 @@ class InstantMap final : public FrameBuild {
   void split(const FrameBuildJob& job, const gl::Program& program, std::string_view from, std::string_view to) const;
   void coarsen(const FrameBuildJob& job, std::string_view name) const;
   void draw_into(const FrameBuildJob& job, const Stage& stage, const LevelDraw& draw) const;
+  const gl::Texture& room_for(const gl::Texture& like, const glm::ivec2& size, int layers) const;
 
   Settings settings_;
   EffectSet effects_;
@@ -106,7 +86,9 @@ class InstantMap final : public FrameBuild {
   std::optional<gl::Program> join_surface_, split_, split_guard_;
   Stage whole_, split_stage_;
   mutable SamplerCache samplers_;
-  mutable DrawnLevel drawn_;
+  mutable gl::Texture drawn_;  // a level while it is drawn, as large as the largest so far
+  mutable GLint drawn_format_ = 0;
+  mutable int drawn_layers_ = 0;
 };
 
 }  // namespace footprint::xu_vmf

@@ -183,8 +183,7 @@ std::vector<Chart> charts_of(std::span<const Triangle> triangles, std::span<cons
   return charts;
 }
 
-// Packs charts in shelves, the highest first, from left to right. Returns the size of the atlas, or none above
-// `largest_atlas` or `longest_side`.
+// Packs charts in shelves, the highest first; the size of the atlas, or none above `largest_atlas` or `longest_side`.
 std::optional<glm::ivec2> pack(std::vector<Chart>& charts) {
   double area = 0;
   int widest = 1;

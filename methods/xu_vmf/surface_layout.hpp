@@ -30,10 +30,9 @@ struct SurfaceLayout {
 
 /// Lays triangles out in texels as large as those of a map of `map_size` at `coordinates`. Keeps the map's own layout
 /// if triangles stay inside and do not overlap. Otherwise packs charts (triangles that share vertices) into an atlas,
-/// each moved by whole texels, so that a texel of the atlas shows exactly one texel of the map. No layout if
-/// coordinates are not finite, a chart overlaps itself, the atlas exceeds `largest_atlas` or `longest_side`, or more
-/// than 1/1000 of the surface's area has no texel. The latter happens with missing or collinear coordinates, and with
-/// charts smaller than a texel.
+/// each moved by whole texels, so that a texel of the atlas shows exactly one of the map. No layout if coordinates are
+/// not finite, a chart overlaps itself, the atlas is too large, or more than 1/1000 of the surface has no texel, as
+/// with missing or collinear coordinates and charts smaller than a texel.
 [[nodiscard]] SurfaceLayout lay_out(const TriangleSoup& soup, const TextureCoordinates& coordinates,
                                     const glm::ivec2& map_size);
 

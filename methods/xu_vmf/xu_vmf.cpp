@@ -55,8 +55,7 @@ std::vector<OptionSpec> option_table() {
           threshold_option("eps1", 0.85, "j=adaptive: one lobe serves one of the 4 parts where its |r| is above.")};
 }
 
-// Whether the maps can be joined texel by texel: a point of the surface is the same point in both. A missing map joins
-// with any other.
+// Whether the maps can be joined texel by texel: they have the same coordinates, or one is missing.
 bool can_join(const Material& material) {
   if (width_map(material) == nullptr) return true;
   const TextureCoordinates roughness = roughness_coordinates(material);
@@ -113,13 +112,11 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
   const bool whole_is_averaged = parts == 0 || layers > 1;
   const auto declare = [&](std::string_view name, const glm::ivec2& texels, int count, int channels, bool whole_chain) {
     out.textures.push_back(make_built_texture({.name = std::string(name),
-                                               .width = texels.x,
-                                               .height = texels.y,
-                                               .layers = count,
-                                               .channels = channels,
                                                .storage = settings.storage,
-                                               .whole_chain = whole_chain},
-                                              coordinates));
+                                               .channels = channels,
+                                               .layers = count,
+                                               .coordinates = coordinates},
+                                              texels, whole_chain));
     if (parts > 0) out.textures.back().filter = TextureFilter::by_level;
   };
   declare(xu_vmf::whole_name, size, layers, 4, whole_is_averaged);
@@ -132,23 +129,21 @@ void declare_maps(Prefiltered& out, const glm::ivec2& size, const TextureCoordin
 
 // Moves the maps out of `inputs`, so that they are in memory once.
 void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, const xu_vmf::Settings& settings) {
-  const auto add = [&](std::string_view name, std::vector<Image> levels, const TextureCoordinates& coordinates) {
+  const auto add = [&](std::string_view name, Image image, const TextureCoordinates& coordinates, bool all_levels) {
+    std::vector<Image> levels;  // an initializer list would copy the map
+    if (all_levels) {
+      levels = mip_chain(std::move(image));
+    } else {
+      levels.push_back(std::move(image));
+    }
     out.textures.push_back(make_texture(std::string(name), std::move(levels), Storage::fp32, coordinates));
   };
-  if (inputs.normals_vary) {
-    std::vector<Image> finest;  // an initializer list would copy the map
-    finest.push_back(std::move(inputs.normals));
-    add(xu_vmf::normals_name, std::move(finest), normal_coordinates(material));
-  }
+  if (inputs.normals_vary) add(xu_vmf::normals_name, std::move(inputs.normals), normal_coordinates(material), false);
   // Shading reads the coarser levels for the facets' own share of a lobe's width.
   if (inputs.roughness_varies)
-    add(xu_vmf::variances_name, mip_chain(std::move(inputs.variances)), roughness_coordinates(material));
-  if (inputs.colours_vary) {
-    std::vector<Image> weights;
-    weights.push_back(std::move(inputs.weights));
-    add(xu_vmf::colours_name, std::move(weights), specular_coordinates(material));
-  }
-  if (settings.table) add(xu_vmf::table_name, {shortfall_table()}, {});
+    add(xu_vmf::variances_name, std::move(inputs.variances), roughness_coordinates(material), true);
+  if (inputs.colours_vary) add(xu_vmf::colours_name, std::move(inputs.weights), specular_coordinates(material), false);
+  if (settings.table) add(xu_vmf::table_name, shortfall_table(), {}, false);
 }
 
 Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_vmf::Settings& settings,

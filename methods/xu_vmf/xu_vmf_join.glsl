@@ -1,7 +1,6 @@
 // First pass of the frame build: joins the base BRDF and the normal map into one lobe per texel (Xu 2017, section 4),
-// or one for each lobe of the facets. Writes (r, 1) for the whole hemisphere, or 0 where there is no valid normal, no
-// surface, or only a surface that faces away. Means of texels are (w r, w), with w the covered share of the footprint
-// and r the mean of its lobes.
+// or one for each lobe of the facets. Writes (r, 1), or 0 where there is no valid normal, no surface, or only one that
+// faces away. Means of texels are (w r, w), with w the covered share of the footprint and r the mean of its lobes.
 //? include xu_vmf_conversion.glsl
 //? include xu_vmf_storing.glsl
 
@@ -27,8 +26,7 @@ uniform bool two_sided;
 
 //? include tangent_frame.glsl
 
-// Whether the viewer sees the front of the triangle. The outward side follows from the change of position over the
-// texture, in which the triangle may be mirrored.
+// Whether the viewer sees the triangle's front, by the change of position over the texture, which may mirror it.
 bool facesViewer() {
   vec3 outward = cross(dFdx(world_position), dFdy(world_position)) * (gl_FrontFacing ? 1.0 : -1.0);
   return dot(outward, viewer.xyz - viewer.w * world_position) > 0.0;

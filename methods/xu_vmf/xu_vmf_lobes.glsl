@@ -1,7 +1,6 @@
 // The lobes of a facet, and the lobes that a pixel reflects with.
 
-// A lobe of one facet, which the map has joined with the normals: one about its normal, or several about their own
-// axes.
+// A lobe of one facet, joined with the normals: one about its normal, or several about their own axes.
 struct FacetsLobe {
   vec3 axis;
   float parameter, weight;

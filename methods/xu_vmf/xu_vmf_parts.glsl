@@ -3,8 +3,7 @@
 // Parts that cover less of the footprint are left out, which also avoids divisions by 0.
 const float least_share = 1e-4;
 
-// The rounding error of |r|; spreads below it are unknown. Half floats lose it from every spread, 32-bit floats only
-// from smaller spreads.
+// The rounding error of |r|: half floats lose it from every spread, 32-bit floats only from smaller spreads.
 //? if storage_fp16
 float shortfallOfMean(float size, float least) { return max(1.0 - size - 1.0 / 2048.0, least); }
 //? else

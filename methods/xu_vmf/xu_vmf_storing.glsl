@@ -4,8 +4,7 @@ vec4 stored(vec4 value) {
   return value;                                                                                 //? else
 }
 
-// Whether a layer that a pass draws is a coarse part of `adaptive`'s tree. It is the sum of its two cells, which follow
-// it, and needs no lookups.
+// Whether a drawn layer is a coarse part of `adaptive`'s tree: the sum, without lookups, of the next two.
 bool isSumOfNext(int i, int layers) {
   return layers > 1 && i % 3 == 0;  //? if j_adaptive
   return false;                     //? else

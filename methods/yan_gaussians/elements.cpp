@@ -60,7 +60,7 @@ Image unfolded(const Image& map, const std::array<Wrap, 2>& wrap) {
   return out;
 }
 
-NormalJacobian jacobian_at(const Image& normals, int x, int y) {
+std::array<float, 4> jacobian_at(const Image& normals, int x, int y) {
   const auto left = normals.at((x + normals.width - 1) % normals.width, y);
   const auto right = normals.at((x + 1) % normals.width, y);
   const auto before = normals.at(x, (y + normals.height - 1) % normals.height);
@@ -144,23 +144,23 @@ class Builder {
 }  // namespace
 
 Elements make_elements(const Material& material, bool jacobians) {
-  Elements elements{.normals = unfolded(filled(normal_map_of(material)), normal_coordinates(material).wrap),
-                    .jacobians = {}};
+  Elements elements{.normals = unfolded(filled(normal_map_of(material)), normal_coordinates(material).wrap)};
   if (!jacobians) return elements;
-  elements.jacobians.reserve(elements.normals.texel_count());
+  elements.jacobians = elements.normals;
   for (int y = 0; y < elements.normals.height; ++y) {
-    for (int x = 0; x < elements.normals.width; ++x) elements.jacobians.push_back(jacobian_at(elements.normals, x, y));
+    for (int x = 0; x < elements.normals.width; ++x)
+      std::ranges::copy(jacobian_at(elements.normals, x, y), elements.jacobians.at(x, y).begin());
   }
   return elements;
 }
 
 float normal_reach(const Elements& elements, std::size_t texel) {
   if (elements.jacobians.empty()) return 0.0F;
-  const auto [x_by_u, x_by_v, y_by_u, y_by_v] = elements.jacobians[texel];
+  const float* const by = &elements.jacobians.texels[4 * texel];
   const glm::dvec2 disc(elements.normals.texels[4 * texel], elements.normals.texels[4 * texel + 1]);
   const auto height = [](const glm::dvec2& at) { return std::sqrt(std::max(1.0 - glm::dot(at, at), 0.0)); };
   double squares = 0.0;
-  for (const glm::dvec2 slope : {glm::dvec2(x_by_u, y_by_u), glm::dvec2(x_by_v, y_by_v)}) {
+  for (const glm::dvec2 slope : {glm::dvec2(by[0], by[2]), glm::dvec2(by[1], by[3])}) {
     const double rise = 0.5 * (height(disc + slope) - height(disc - slope));
     squares += glm::dot(slope, slope) + rise * rise;
   }

@@ -16,19 +16,14 @@ namespace footprint {
 /// (Yan 2016), so it is 1 / sqrt(8 ln 2). `seed_deviation` of yan_sum.glsl is its twin.
 inline constexpr double seed_deviation = 0.42466090014400953;
 
-/// Slopes of (n_x, n_y) per texel: dnx/du, dnx/dv, dny/du, dny/dv.
-using NormalJacobian = std::array<float, 4>;
-
-/// The elements of a map that repeats along both axes. A map that does not repeat is extended by its mirror image, with
-/// twice as many elements.
+/// The elements of a map that repeats along both axes; others are extended by their mirror image to twice the number.
 struct Elements {
-  Image normals;                          ///< 4 channels, unit normals, weight 1
-  std::vector<NormalJacobian> jacobians;  ///< one per texel, row by row; empty: constant normals
+  Image normals;      ///< 4 channels, unit normals, weight 1
+  Image jacobians{};  ///< slopes of (n_x, n_y) per texel: dnx/du, dnx/dv, dny/du, dny/dv; empty: constant normals
 };
 
-/// The elements of a material's normal map. Invalid normals become the mean of the valid normals around them, or (0, 0,
-/// 1) if none is valid, because every texel needs an element. `jacobians`: compute them by central differences of the
-/// neighbours.
+/// The elements of a material's normal map. Invalid normals become the mean of the valid ones around them, or (0, 0, 1)
+/// if there is none, because every texel needs an element. `jacobians`: compute them, by central differences.
 [[nodiscard]] Elements make_elements(const Material& material, bool jacobians);
 
 /// The reach of an element's normals per deviation of the cut-off, along any axis of the disc: from position and spread

@@ -17,10 +17,6 @@ namespace {
 // Widths of the textures that store lists; yan_sum.glsl has the same numbers.
 constexpr int order_width = 4096, nodes_width = 2048;
 
-int rows_for(std::size_t count, int width) {
-  return static_cast<int>((count + static_cast<std::size_t>(width) - 1) / static_cast<std::size_t>(width));
-}
-
 ElementTree tree_over(const Elements& elements, double cutoff) {
   const Image& normals = elements.normals;
   std::vector<TreePoint> points;
@@ -38,25 +34,9 @@ ElementTree tree_over(const Elements& elements, double cutoff) {
   return build_element_tree(points, reach);
 }
 
-// The texel indices in the order of the leaves, one byte per channel and therefore exact.
-PrefilteredTexture order_texture(const ElementTree& tree) {
-  TextureLevel level{.width = order_width, .height = rows_for(tree.order.size(), order_width), .bytes = {}};
-  level.bytes.resize(std::size_t{4} * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
-  for (std::size_t i = 0; i < tree.order.size(); ++i) {
-    for (unsigned byte = 0; byte < 4; ++byte)
-      level.bytes[4 * i + byte] = static_cast<std::uint8_t>(tree.order[i] >> (8 * byte) & 0xFFU);
-  }
-  return {.name = "yan_order",
-          .storage = Storage::unorm8,
-          .channels = 4,
-          .filter = TextureFilter::nearest,
-          .coordinates = {},
-          .levels = {std::move(level)}};
-}
-
 // The bounds of each node: the lower ones in the first layer, the upper ones in the second.
 PrefilteredTexture nodes_texture(const ElementTree& tree) {
-  const int rows = rows_for(tree.nodes.size(), nodes_width);
+  const auto rows = static_cast<int>((tree.nodes.size() + nodes_width - 1) / nodes_width);
   std::vector<std::vector<Image>> layers(2);
   for (std::size_t layer = 0; layer < 2; ++layer) {
     Image& image = layers[layer].emplace_back(nodes_width, rows, 4);
@@ -65,13 +45,6 @@ PrefilteredTexture nodes_texture(const ElementTree& tree) {
                         image.texels.begin() + 4 * static_cast<std::ptrdiff_t>(i));
   }
   return make_array_texture("yan_nodes", std::move(layers), Storage::fp32, {}, TextureFilter::nearest);
-}
-
-PrefilteredTexture jacobian_texture(const Elements& elements) {
-  Image image(elements.normals.width, elements.normals.height, 4);
-  for (std::size_t i = 0; i < elements.jacobians.size(); ++i)
-    std::ranges::copy(elements.jacobians[i], image.texels.begin() + 4 * static_cast<std::ptrdiff_t>(i));
-  return make_texture("yan_jacobian", {std::move(image)}, Storage::fp32, {});
 }
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
@@ -87,7 +60,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
                       {"yan_clamp_u", clamped(wrap[0])},
                       {"yan_clamp_v", clamped(wrap[1])}});
   progress("elements", 0.0);
-  const Elements elements = make_elements(material, options.word("jacobian") == "central");
+  Elements elements = make_elements(material, options.word("jacobian") == "central");
   progress("hierarchy over positions and normals", 0.1);
   const ElementTree tree = tree_over(elements, options.number("cutoff"));
   progress("textures", 0.8);
@@ -95,8 +68,9 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   TextureCoordinates repeating = normal_coordinates(material);
   repeating.wrap = {Wrap::repeat, Wrap::repeat};
   out.textures.push_back(make_texture("mean_normal", mean_normal_chain(elements.normals), Storage::fp32, repeating));
-  if (!elements.jacobians.empty()) out.textures.push_back(jacobian_texture(elements));
-  out.textures.push_back(order_texture(tree));
+  if (!elements.jacobians.empty())
+    out.textures.push_back(make_texture("yan_jacobian", {std::move(elements.jacobians)}, Storage::fp32, {}));
+  out.textures.push_back(make_word_texture("yan_order", order_width, tree.order));  // texel indices
   out.textures.push_back(nodes_texture(tree));
   return out;
 }

@@ -1,5 +1,4 @@
-// Sums Gaussian elements, one per texel, under a Gaussian footprint. Samples of a supersampled image draw the facet of
-// one texel.
+// Sums Gaussian elements, one per texel, under a Gaussian footprint. Supersampled images draw the facet of one texel.
 //? if normal_variation
 // The footprint on the stored map, which appends the mirror image of a map that does not repeat.
 Footprint folded(Footprint f) {
@@ -11,8 +10,7 @@ Footprint folded(Footprint f) {
 }
 
 //? end
-// The reflectance of one element, from the mean and the covariance of its normals on the disc and the roughness of
-// each.
+// The reflectance of an element, from mean and covariance of its normals on the disc and the roughness of each.
 
 // The value of each element: its reflectance without the Fresnel term, or its density of normals at h.
 struct Query {

@@ -30,9 +30,8 @@ float gridSum(vec3 m, vec2 p) {
   return 1.0 + 2.0 * (row + column + rising + falling);
 }
 
-// The Gaussian with the mean and the covariance of the pixel's parallelogram, e e^T / 12 for each edge e. If it is
-// wider than the map, which repeats, its deviation is limited to half of the map. There the sum over copies is constant
-// within 1.5%.
+// The Gaussian with the mean and the covariance of the pixel's parallelogram, e e^T / 12 for each edge e. Its deviation
+// is limited to half of the map, which repeats: there the sum over copies is constant within 1.5%.
 vec3 footprintCovariance(vec2 dx, vec2 dy, vec2 size) {
   vec3 m = vec3(dx.x * dx.x + dy.x * dy.x, dx.x * dx.y + dy.x * dy.y, dx.y * dx.y + dy.y * dy.y) / 12.0;
   vec2 narrower = min(0.5 * size * inversesqrt(max(m.xz, 1e-12)), 1.0);
@@ -86,8 +85,7 @@ uint texelAt(uint place) {
 }
 
 //? if jacobian_central
-// The covariance of an element's normals on the disc, from that of its positions by the Jacobian `slopes`: n_x by u and
-// v, then n_y by u and v.
+// The covariance of an element's normals on the disc, by the Jacobian `slopes`: n_x by u and v, n_y by u and v.
 vec3 spreadOnDisc(Effective e, vec4 slopes) {
   vec2 by_x = vec2(dot(e.within.xy, slopes.xy), dot(e.within.yz, slopes.xy));
   vec2 by_y = vec2(dot(e.within.xy, slopes.zw), dot(e.within.yz, slopes.zw));
@@ -97,8 +95,7 @@ vec3 spreadOnDisc(Effective e, vec4 slopes) {
 float heightOver(vec2 disc) { return sqrt(max(1.0 - dot(disc, disc), 0.0)); }
 
 // The mean of the variances on the sphere along both axes. The change of n_z is a difference over two texels, because
-// its derivative on the disc is infinite at the horizon. Two deviations reach the horizon at most, as no normal of a
-// map is below it.
+// its derivative is infinite at the horizon, which two deviations reach at most: no normal is below it.
 float spreadOnSphere(Effective e, vec2 disc, vec4 slopes) {
   vec3 spread = spreadOnDisc(e, slopes);
   vec2 rise = 0.5 * vec2(heightOver(disc + slopes.xz) - heightOver(disc - slopes.xz),
@@ -139,8 +136,7 @@ float elementAt(Effective e, uint place, Query q) {
   return weight > 0.0 ? weight * value : 0.0;
 }
 
-// Whether elements of a node may contribute: their positions are within `reach` of the footprint's centre on the
-// repeating map, and their normals within `normal_reach` of h.
+// Whether elements of a node may contribute: within `reach` of the footprint's centre, and `normal_reach` of h.
 bool reaches(Effective e, uint node, vec3 h, float normal_reach) {
   ivec2 at = ivec2(node & 2047u, node >> 11u);
   vec4 low = texelFetch(yan_nodes, ivec3(at, 0), 0);

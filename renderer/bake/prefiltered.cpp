@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -246,19 +247,24 @@ PrefilteredTexture make_array_texture(std::string name, std::vector<std::vector<
   return texture;
 }
 
-PrefilteredTexture make_built_texture(const BuiltTexture& built, const TextureCoordinates& coordinates) {
-  PrefilteredTexture texture;
-  texture.name = built.name;
-  texture.storage = built.storage;
-  texture.channels = built.channels;
-  texture.layers = built.layers;
-  texture.coordinates = coordinates;
+PrefilteredTexture make_word_texture(std::string name, int width, std::span<const std::uint32_t> words) {
+  static_assert(std::endian::native == std::endian::little, "words are copied as they lie in memory");
+  const auto row = static_cast<std::size_t>(width);
+  const std::size_t rows = std::max<std::size_t>((words.size() + row - 1) / row, 1);
+  TextureLevel level{.width = width, .height = static_cast<int>(rows), .bytes = {}};
+  level.bytes.resize(4 * row * rows);
+  if (!words.empty()) std::memcpy(level.bytes.data(), words.data(), words.size_bytes());
+  PrefilteredTexture texture{.name = std::move(name), .storage = Storage::unorm8, .filter = TextureFilter::nearest};
+  texture.levels.push_back(std::move(level));
+  return texture;
+}
+
+PrefilteredTexture make_built_texture(PrefilteredTexture texture, const glm::ivec2& size, bool whole_chain) {
   texture.built = true;
-  const int count = built.whole_chain ? mip_level_count(built.width, built.height) : 1;
-  for (int level = 0; level < count; ++level) {
+  const int count = whole_chain ? mip_level_count(size.x, size.y) : 1;
+  for (int level = 0; level < count; ++level)
     texture.levels.push_back(
-        {.width = std::max(built.width >> level, 1), .height = std::max(built.height >> level, 1), .bytes = {}});
-  }
+        {.width = std::max(size.x >> level, 1), .height = std::max(size.y >> level, 1), .bytes = {}});
   return texture;
 }
 

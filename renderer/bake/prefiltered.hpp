@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,9 +68,9 @@ struct PrefilteredTexture {
   int channels = 4;  ///< 1 to 4
   int layers = 0;    ///< 0: a plain texture; otherwise an array
   TextureFilter filter = TextureFilter::trilinear;
-  TextureCoordinates coordinates;    ///< of the map that it filters
-  std::vector<TextureLevel> levels;  ///< finest first, 1 x 1 last; or only the finest
-  bool built = false;                ///< a frame build writes the texels; levels have sizes and no bytes
+  TextureCoordinates coordinates{};    ///< of the map that it filters
+  std::vector<TextureLevel> levels{};  ///< finest first, 1 x 1 last; or only the finest
+  bool built = false;                  ///< a frame build writes the texels; levels have sizes and no bytes
 
   friend bool operator==(const PrefilteredTexture&, const PrefilteredTexture&) = default;
 };
@@ -127,17 +128,14 @@ void free_texels(PrefilteredTexture& texture);
                                                     Storage storage, const TextureCoordinates& coordinates,
                                                     TextureFilter filter = TextureFilter::trilinear);
 
-/// An array texture whose texels a frame build writes (method.hpp).
-struct BuiltTexture {
-  std::string name;
-  int width = 1, height = 1, layers = 1;
-  int channels = 4;
-  Storage storage = Storage::fp32;
-  bool whole_chain = true;  ///< all levels, otherwise only the finest
-};
+/// Integers as texels of four bytes, the lowest first, because textures return bytes exactly. Rows have `width` texels.
+[[nodiscard]] PrefilteredTexture make_word_texture(std::string name, int width, std::span<const std::uint32_t> words);
 
-/// Declares the texture: its levels have sizes and no texels.
-[[nodiscard]] PrefilteredTexture make_built_texture(const BuiltTexture& built, const TextureCoordinates& coordinates);
+/// Declares a texture whose texels a frame build writes (method.hpp): `texture` with levels that have sizes and no
+/// texels.
+/// whole_chain: all levels, otherwise only the finest.
+[[nodiscard]] PrefilteredTexture make_built_texture(PrefilteredTexture texture, const glm::ivec2& size,
+                                                    bool whole_chain = true);
 
 /// The floats that the shader reads from a level of a layer, before it decodes a signed range. Throws std::logic_error:
 /// a texture of a frame build.

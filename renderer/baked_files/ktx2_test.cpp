@@ -138,7 +138,7 @@ TEST(Ktx2, TheReaderRefusesWrongFiles) {
 }
 
 TEST(Ktx2, RefusesWhatHasNoTexels) {
-  const PrefilteredTexture built = make_built_texture({.name = "built"}, {});
+  const PrefilteredTexture built = make_built_texture({.name = "built", .layers = 1}, {1, 1});
   EXPECT_THROW((void)ktx2_bytes(built), std::logic_error);
 }
 

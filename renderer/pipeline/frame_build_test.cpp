@@ -65,7 +65,8 @@ struct Builder {
       .precompute =
           [](const Material& /*material*/, const Options& /*options*/, const EffectSet& /*effects*/,
              const Progress& /*progress*/) {
-            return Prefiltered{.textures = {make_built_texture({.name = "filled"}, {})}, .scalars = {}};
+            return Prefiltered{.textures = {make_built_texture({.name = "filled", .layers = 1}, {1, 1})},
+                               .scalars = {}};
           },
       .shader = {"builder.glsl",
                  "struct Effective { float shade; };\n"
@@ -188,13 +189,13 @@ TEST(GpuSceneUpdate, RefusesAnotherScene) {
 }
 
 TEST(BuiltTexture, HasSizesAndBytesButNoTexels) {
-  const PrefilteredTexture texture = make_built_texture({.name = "map", .width = 13, .height = 6, .layers = 9}, {});
+  const PrefilteredTexture texture = make_built_texture({.name = "map", .layers = 9}, {13, 6});
   ASSERT_EQ(texture.levels.size(), 4U);
   EXPECT_EQ(texture.levels[1].width, 6);
   EXPECT_EQ(texture.levels[1].height, 3);
   EXPECT_EQ(byte_count(texture), (13U * 6U + 6U * 3U + 3U * 1U + 1U) * 9U * 16U);
   EXPECT_THROW((void)decode_level(texture, 0), std::logic_error);
-  EXPECT_EQ(make_built_texture({.name = "map", .width = 13, .height = 6, .whole_chain = false}, {}).levels.size(), 1U);
+  EXPECT_EQ(make_built_texture({.name = "map", .layers = 1}, {13, 6}, false).levels.size(), 1U);
   Prefiltered prefiltered{.textures = {texture}, .scalars = {}};
   const auto from_disk = [](const Prefiltered& written) {
     std::vector<std::uint8_t> bytes;

@@ -113,8 +113,7 @@ TEST(SharedUploads, KeepTheSameTexelsOnce) {
   close.levels.back().bytes.back() ^= 1U;
   EXPECT_NE(uploads.upload(close).texture, first.texture);
   EXPECT_EQ(uploads.bytes(), 2 * bytes);
-  const PrefilteredTexture built =
-      make_built_texture({.name = "built", .width = 8, .height = 8, .storage = Storage::fp16}, {});
+  const PrefilteredTexture built = make_built_texture({.name = "built", .storage = Storage::fp16, .layers = 1}, {8, 8});
   EXPECT_NE(uploads.upload(built).texture, uploads.upload(built).texture);
 }
 

@@ -15,7 +15,7 @@
 #include "bench/linear_bases.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "experiments/studies/picture_files.hpp"
-#include "methods/ndf_atlas/lattice.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
 #include "methods/registry.hpp"
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/core/error.hpp"

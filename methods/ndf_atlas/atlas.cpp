@@ -25,28 +25,24 @@ struct AxisTaps {
   std::vector<double> weight;
 };
 
+AxisTaps taps_of(int size, int level, int i) {
+  if (level == 0) return {i, {1.0}};
+  const MipTaps own = mip_taps(std::max(size >> (level - 1), 1), i);
+  AxisTaps out;
+  for (int k = 0; k < own.count; ++k) {
+    const AxisTaps fine = taps_of(size, level - 1, own.first + k);
+    if (k == 0) out.first = fine.first;
+    const auto first = static_cast<std::size_t>(fine.first - out.first);
+    out.weight.resize(std::max(out.weight.size(), first + fine.weight.size()));
+    for (std::size_t j = 0; j < fine.weight.size(); ++j)
+      out.weight[first + j] += own.weight[static_cast<std::size_t>(k)] * fine.weight[j];
+  }
+  return out;
+}
+
 std::vector<AxisTaps> axis_taps(int size, int level) {
   std::vector<AxisTaps> taps;
-  taps.reserve(static_cast<std::size_t>(size));
-  for (int i = 0; i < size; ++i) taps.push_back({i, {1.0}});
-  for (int l = 0; l < level && taps.size() > 1; ++l) {
-    const auto fine_size = static_cast<int>(taps.size());
-    std::vector<AxisTaps> coarse;
-    for (int i = 0; i < fine_size / 2; ++i) {
-      const MipTaps own = mip_taps(fine_size, i);
-      const AxisTaps& last = taps[static_cast<std::size_t>(own.first + own.count - 1)];
-      AxisTaps joined{taps[static_cast<std::size_t>(own.first)].first, {}};
-      joined.weight.resize(static_cast<std::size_t>(last.first - joined.first) + last.weight.size());
-      for (int k = 0; k < own.count; ++k) {
-        const AxisTaps& fine = taps[static_cast<std::size_t>(own.first + k)];
-        for (std::size_t j = 0; j < fine.weight.size(); ++j)
-          joined.weight[static_cast<std::size_t>(fine.first - joined.first) + j] +=
-              own.weight[static_cast<std::size_t>(k)] * fine.weight[j];
-      }
-      coarse.push_back(std::move(joined));
-    }
-    taps = std::move(coarse);
-  }
+  for (int i = 0; i < std::max(size >> level, 1); ++i) taps.push_back(taps_of(size, level, i));
   return taps;
 }
 
@@ -56,17 +52,9 @@ class NodeSums {
   NodeSums(const Facets& facets, const Lattice& lattice) : facets_(facets), lattice_(lattice) {
     for (int j = 0; j < lattice.nodes.y; ++j)
       for (int i = 0; i < lattice.nodes.x; ++i) directions_.push_back(direction_over(lattice.point(i, j)));
-    const std::size_t widest = static_cast<std::size_t>(
-        std::ranges::max_element(facets.parameters,
-                                 [&](float a, float b) {
-                                   return lobe_width({facets.distribution, a}) < lobe_width({facets.distribution, b});
-                                 }) -
-        facets.parameters.begin());
-    Lobe lobe = facets.lobe(widest);
-    if (facets.anisotropy) lobe.parameter = facets.alphas(widest).along;
-    const double reach = lobe_reach(lobe, energy_outside);
     // Across the tilt the plane is up to sqrt(2) times as wide as the sphere above the horizon.
-    half_edge_ = reach < 0.5 * std::numbers::pi ? 2.0 * std::numbers::sqrt2 * std::sin(0.5 * reach) : 4.0;
+    half_edge_ =
+        lattice.reach < 0.5 * std::numbers::pi ? 2.0 * std::numbers::sqrt2 * std::sin(0.5 * lattice.reach) : 4.0;
   }
 
   void add(std::size_t facet, double weight, std::span<double> sums) const {
@@ -125,27 +113,29 @@ double sum_texel(const Facets& facets, const NodeSums& nodes, const AxisTaps& ac
 
 constexpr int most_texels_across = 16384;
 
-// A table in its storage, scaled so that its largest node is 1.
+// A table in its storage, corrected, times its coverage, and scaled so that its largest node is 1.
 struct StoredTable {
-  std::vector<std::uint8_t> bytes;
-  float scale = 0.0F;
+  std::vector<std::uint8_t> bytes{};
+  float scale = 0.0F, coverage = 0.0F;
 };
 
-StoredTable stored(std::span<const float> table, int width, Storage storage) {
-  StoredTable out{{}, std::max(std::ranges::max(table), 1e-30F)};
+StoredTable stored(std::span<const float> plain, float coverage, const Lattice& lattice, Storage storage) {
+  std::vector<float> table(plain.begin(), plain.end());
+  correct_for_bilinear(table, lattice);
+  close_border(table, lattice);
+  for (float& node : table) node *= coverage;
+  StoredTable out{.scale = std::max(std::ranges::max(table), 1e-30F), .coverage = coverage};
   if (storage == Storage::unorm8) {
-    out.bytes = bytes_of(table, width, out.scale, Rounding::diffused);
+    out.bytes = bytes_of(table, lattice.nodes.x, out.scale);
     return out;
   }
-  out.bytes.resize(table.size() * channel_bytes(storage));
+  const std::size_t size = channel_bytes(storage);
+  out.bytes.resize(table.size() * size);
   for (std::size_t i = 0; i < table.size(); ++i) {
     const float value = table[i] / out.scale;
     const std::uint16_t half_value = half(value).bits();
-    if (storage == Storage::fp16) {
-      std::memcpy(&out.bytes[2 * i], &half_value, 2);
-    } else {
-      std::memcpy(&out.bytes[4 * i], &value, 4);
-    }
+    const void* const from = storage == Storage::fp16 ? static_cast<const void*>(&half_value) : &value;
+    std::memcpy(&out.bytes[size * i], from, size);
   }
   return out;
 }
@@ -156,75 +146,26 @@ int next_texel(int i, int size, Wrap wrap) {
   return wrap == Wrap::repeat ? 0 : size - 1;
 }
 
-// The textures that all levels are written to.
-class Packing {
- public:
-  Packing(const AtlasLayout& layout, Storage storage) : layout_(layout), storage_(storage) {
-    densities_.width = layout.columns * layout.nodes.x;
-    densities_.height = layout.rows * layout.nodes.y;
-    densities_.bytes.resize(layout.byte_count(storage));
-    blocks_ = Image(2 * layout.columns, layout.rows, 4);
-  }
+// The texels that all levels are written to.
+struct Atlas {
+  const AtlasLayout& layout;
+  std::size_t size;  // of a node, bytes
+  TextureLevel densities;
+  Image blocks{2 * layout.columns, layout.rows, 4};
 
-  void add(LevelTables& level, const Lattice& lattice, const std::array<Wrap, 2>& wrap) {
-    std::vector<StoredTable> tables(level.coverage.size());
-    tbb::parallel_for(std::size_t{0}, tables.size(), [&](std::size_t texel) {
-      const std::span<const float> plain = level.table(texel);
-      std::vector<float> table(plain.begin(), plain.end());
-      correct_for_bilinear(table, lattice);
-      close_border(table, lattice);
-      for (float& node : table) node *= level.coverage[texel];
-      tables[texel] = stored(table, lattice.nodes.x, storage_);
-    });
-    tbb::parallel_for(0, level.height, [&](int y) {
-      for (int x = 0; x < level.width; ++x) {
-        const int right = next_texel(x, level.width, wrap[0]);
-        const int below = next_texel(y, level.height, wrap[1]);
-        const std::array<glm::ivec2, 4> texels{{{x, y}, {right, y}, {x, below}, {right, below}}};
-        for (std::size_t channel = 0; channel < 4; ++channel) {
-          const auto texel = static_cast<std::size_t>(texels[channel].y * level.width + texels[channel].x);
-          put(first_block_ + static_cast<std::size_t>(y * level.width + x), channel, tables[texel],
-              level.coverage[texel]);
-        }
-      }
-    });
-    first_block_ += tables.size();
-  }
-
-  [[nodiscard]] std::array<PrefilteredTexture, 2> take() {
-    std::array<PrefilteredTexture, 2> out;
-    out[0].name = "ndf_atlas_densities";
-    out[0].storage = storage_;
-    out[0].filter = TextureFilter::linear;
-    out[0].levels.push_back(std::move(densities_));
-    out[1] = make_level_texture("ndf_atlas_blocks", std::move(blocks_), Storage::fp32, {});
-    out[1].filter = TextureFilter::linear;
-    return out;
-  }
-
- private:
-  void put(std::size_t block, std::size_t channel, const StoredTable& table, float coverage) {
-    const auto columns = static_cast<std::size_t>(layout_.columns);
-    const std::size_t column = block % columns;
-    const std::size_t row = block / columns;
-    const auto nodes_x = static_cast<std::size_t>(layout_.nodes.x);
-    const auto nodes_y = static_cast<std::size_t>(layout_.nodes.y);
-    const std::size_t size = channel_bytes(storage_);
+  void put(std::size_t block, std::size_t channel, const StoredTable& table) {
+    const auto columns = static_cast<std::size_t>(layout.columns);
+    const std::size_t column = block % columns, row = block / columns;
+    const auto nodes_x = static_cast<std::size_t>(layout.nodes.x), nodes_y = static_cast<std::size_t>(layout.nodes.y);
     for (std::size_t j = 0; j < nodes_y; ++j) {
       const std::size_t texel = (row * nodes_y + j) * columns * nodes_x + column * nodes_x;
-      std::uint8_t* out = &densities_.bytes[(4 * texel + channel) * size];
+      std::uint8_t* out = &densities.bytes[(4 * texel + channel) * size];
       const std::uint8_t* in = &table.bytes[j * nodes_x * size];
       for (std::size_t i = 0; i < nodes_x; ++i, out += 4 * size, in += size) std::memcpy(out, in, size);
     }
-    blocks_.at(static_cast<int>(2 * column), static_cast<int>(row))[channel] = table.scale;
-    blocks_.at(static_cast<int>(2 * column + 1), static_cast<int>(row))[channel] = coverage;
+    blocks.at(static_cast<int>(2 * column), static_cast<int>(row))[channel] = table.scale;
+    blocks.at(static_cast<int>(2 * column + 1), static_cast<int>(row))[channel] = table.coverage;
   }
-
-  AtlasLayout layout_;
-  Storage storage_;
-  TextureLevel densities_;
-  Image blocks_;
-  std::size_t first_block_ = 0;
 };
 
 std::size_t block_count(int width, int height, int first_level) {
@@ -332,7 +273,7 @@ void close_border(std::span<float> table, const Lattice& lattice) {
   }
 }
 
-std::vector<std::uint8_t> bytes_of(std::span<const float> table, int width, float scale, Rounding rounding) {
+std::vector<std::uint8_t> bytes_of(std::span<const float> table, int width, float scale) {
   std::vector<std::uint8_t> bytes(table.size());
   const auto row_length = static_cast<std::size_t>(width);
   double left_over = 0.0;
@@ -341,7 +282,7 @@ std::vector<std::uint8_t> bytes_of(std::span<const float> table, int width, floa
       const std::size_t node = row * row_length + (row % 2 == 0 ? k : row_length - 1 - k);
       const double value = 255.0 * static_cast<double>(table[node]) / static_cast<double>(scale) + left_over;
       const double byte = std::clamp(std::round(value), 0.0, 255.0);
-      if (rounding == Rounding::diffused) left_over = value - byte;
+      left_over = value - byte;
       bytes[node] = static_cast<std::uint8_t>(byte);
     }
   }
@@ -370,16 +311,38 @@ AtlasLayout layout_for(int width, int height, const Lattice& lattice, int first_
   return layout;
 }
 
-std::array<PrefilteredTexture, 2> atlas_textures(LevelTables finest, const Lattice& lattice, const AtlasLayout& layout,
+std::array<PrefilteredTexture, 2> atlas_textures(LevelTables level, const Lattice& lattice, const AtlasLayout& layout,
                                                  Storage storage, const std::array<Wrap, 2>& wrap) {
-  Packing packing(layout, storage);
-  LevelTables level = std::move(finest);
-  packing.add(level, lattice, wrap);
-  while (level.coverage.size() > 1) {
-    level = coarser(level);
-    packing.add(level, lattice, wrap);
+  Atlas atlas{.layout = layout,
+              .size = channel_bytes(storage),
+              .densities = {.width = layout.columns * layout.nodes.x,
+                            .height = layout.rows * layout.nodes.y,
+                            .bytes = std::vector<std::uint8_t>(layout.byte_count(storage))}};
+  for (std::size_t first_block = 0;; level = coarser(level)) {
+    std::vector<StoredTable> tables(level.coverage.size());
+    tbb::parallel_for(std::size_t{0}, tables.size(), [&](std::size_t texel) {
+      tables[texel] = stored(level.table(texel), level.coverage[texel], lattice, storage);
+    });
+    tbb::parallel_for(0, level.height, [&](int y) {
+      const int below = next_texel(y, level.height, wrap[1]);
+      for (int x = 0; x < level.width; ++x) {
+        const int right = next_texel(x, level.width, wrap[0]);
+        const std::array<glm::ivec2, 4> texels{{{x, y}, {right, y}, {x, below}, {right, below}}};
+        for (std::size_t channel = 0; channel < 4; ++channel)
+          atlas.put(first_block + static_cast<std::size_t>(y * level.width + x), channel,
+                    tables[static_cast<std::size_t>(texels[channel].y * level.width + texels[channel].x)]);
+      }
+    });
+    first_block += tables.size();
+    if (tables.size() == 1) break;
   }
-  return packing.take();
+  std::array<PrefilteredTexture, 2> out;
+  out[0].name = "ndf_atlas_densities";
+  out[0].storage = storage;
+  out[0].levels.push_back(std::move(atlas.densities));
+  out[1] = make_level_texture("ndf_atlas_blocks", std::move(atlas.blocks), Storage::fp32, {});
+  for (PrefilteredTexture& texture : out) texture.filter = TextureFilter::linear;
+  return out;
 }
 
 }  // namespace footprint::ndf_atlas

@@ -1,5 +1,5 @@
 // Reads facets from the maps, and computes the extent and the step of the lattice.
-#include "methods/ndf_atlas/lattice.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
 
 #include <algorithm>
 #include <array>
@@ -112,20 +112,19 @@ Lattice lattice_over(const Facets& facets, double step) {
   const Extremes lobes = extremes_of(facets);
   const double longest_step = step * core_width(lobes.narrowest);
   const double limit = horizon + 2.0 * longest_step;
-  const double reach = lobe_reach(lobes.widest, energy_outside);
-  glm::dvec2 low(limit);
-  glm::dvec2 high(-limit);
+  Lattice lattice{.reach = lobe_reach(lobes.widest, energy_outside)};
+  glm::dvec2 low(limit), high(-limit);
   for (std::size_t i = 0; i < facets.normals.size(); ++i) {
     if (!facets.is_valid(i)) continue;
     const glm::dvec3 normal(facets.normals[i]);
-    const double margin = half_edge(normal, reach);
+    const double margin = half_edge(normal, lattice.reach);
     low = glm::min(low, plane_of(normal) - margin);
     high = glm::max(high, plane_of(normal) + margin);
   }
   low = glm::max(low, glm::dvec2(-limit));
   high = glm::min(high, glm::dvec2(limit));
   if (low.x >= high.x || low.y >= high.y) return {};
-  Lattice lattice{.nodes = {}, .origin = low, .step = {}};
+  lattice.origin = low;
   for (int axis = 0; axis < 2; ++axis) {
     const double edge = high[axis] - low[axis];
     lattice.nodes[axis] = 1 + static_cast<int>(std::clamp(std::ceil(edge / longest_step), 3.0, most_nodes));

@@ -1,5 +1,5 @@
 // The plane of the lattice against its definition, reach against closed forms, and the extent of a lattice.
-#include "methods/ndf_atlas/lattice.hpp"
+#include "methods/ndf_atlas/atlas.hpp"
 
 #include <gtest/gtest.h>
 

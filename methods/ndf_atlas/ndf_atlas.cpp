@@ -105,12 +105,7 @@ void add_tables(Plan plan, const Material& material, Storage storage, const Prog
   append(out.textures, atlas_textures(std::move(finest), plan.lattice, plan.layout, storage, coordinates.wrap));
   out.scalars["ndf_atlas_level"] = tabulated ? static_cast<float>(plan.layout.first_level) : 1e3F;
   out.scalars["ndf_atlas_column_bits"] = std::log2(static_cast<float>(plan.layout.columns));
-  out.scalars["ndf_atlas_nodes_x"] = static_cast<float>(plan.lattice.nodes.x);
-  out.scalars["ndf_atlas_nodes_y"] = static_cast<float>(plan.lattice.nodes.y);
-  out.scalars["ndf_atlas_origin_x"] = static_cast<float>(plan.lattice.origin.x);
-  out.scalars["ndf_atlas_origin_y"] = static_cast<float>(plan.lattice.origin.y);
-  out.scalars["ndf_atlas_step_x"] = static_cast<float>(plan.lattice.step.x);
-  out.scalars["ndf_atlas_step_y"] = static_cast<float>(plan.lattice.step.y);
+  out.vectors["ndf_atlas_lattice"] = {plan.lattice.nodes, plan.lattice.origin, plan.lattice.step};
   out.scalars["ndf_atlas_wrap_u"] = wrap_number(coordinates.wrap[0]);
   out.scalars["ndf_atlas_wrap_v"] = wrap_number(coordinates.wrap[1]);
   std::ranges::move(plan.notes, std::back_inserter(out.notes));
@@ -123,10 +118,7 @@ void add_parts(const Material& material, const Settings& settings, const Progres
       normal_map_of(material), steepest_slope, {},
       {.parts = settings.parts, .variance = lobe_variance_chain(material).back().texels[0]}, progress);
   const auto frames = cells::part_frames(map, covariance);
-  for (std::size_t k = 0; k < most_parts; ++k) {
-    out.scalars[fmt::format("ndf_atlas_centre_x{}", k)] = static_cast<float>(frames[k].centre.x);
-    out.scalars[fmt::format("ndf_atlas_centre_y{}", k)] = static_cast<float>(frames[k].centre.y);
-  }
+  for (const cells::PartFrame& frame : frames) out.vectors["ndf_atlas_centres"].emplace_back(frame.centre);
   // The shader reads them by level, because the levels that have tables do not need them.
   out.textures.push_back(make_array_texture("ndf_atlas_moments", cells::moment_chains(map, frames, covariance),
                                             settings.storage, normal_coordinates(material), TextureFilter::by_level));

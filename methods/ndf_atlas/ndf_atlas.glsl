@@ -49,25 +49,18 @@ Part surrounded[parts];  // of the whole footprint, with or without tables
 //? end
 
 //? if normal_variation
-vec2 centreOf(int i) {
-  vec2 centres[4] =
-      vec2[4](vec2(ndf_atlas_centre_x0, ndf_atlas_centre_y0), vec2(ndf_atlas_centre_x1, ndf_atlas_centre_y1),
-              vec2(ndf_atlas_centre_x2, ndf_atlas_centre_y2), vec2(ndf_atlas_centre_x3, ndf_atlas_centre_y3));
-  return centres[i];
-}
-
 Part partOf(Moments m, int i, float covered, BaseLobe base) {
   if (m.first.x < least_share * covered) return absentPart();
   vec2 mean = m.first.yz / m.first.x;
   vec3 spread = covarianceOf(mean, m.second / m.first.x);
-  return stretchedPart(m.first.x / covered, centreOf(i) + mean, spread, base.parameter, base.variance);
+  return stretchedPart(m.first.x / covered, ndf_atlas_centres[i] + mean, spread, base.parameter, base.variance);
 }
 
 void fillParts(Footprints f, float coarsest, BaseLobe base, out Part part[parts]) {
   Moments moments[parts];
   float covered = fetchMoments(ndf_atlas_moments, f.normal, coarsest, moments);
   if (covered <= 0.0) {
-    moments[0] = Moments(vec3(1.0, -centreOf(0)), vec3(0.0));
+    moments[0] = Moments(vec3(1.0, -ndf_atlas_centres[0]), vec3(0.0));
     covered = 1.0;
   }
   for (int i = 0; i < parts; ++i) part[i] = partOf(moments[i], i, covered, base);

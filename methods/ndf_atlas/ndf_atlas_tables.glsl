@@ -1,8 +1,7 @@
 // Finds the tables of a footprint, and evaluates their density in a direction. The block of a texel contains its own
 // table and those of its neighbours on the right, below and diagonal, in four channels. A fetch blends four nodes of
-// each table, and a dot product blends four texels.
-
-vec2 tableNodes() { return vec2(ndf_atlas_nodes_x, ndf_atlas_nodes_y); }
+// each table, and a dot product blends four texels. ndf_atlas_lattice: its nodes, and the origin and the step of their
+// places.
 
 // A level: the number of blocks before it, and its size in texels.
 struct TableLevel {
@@ -87,7 +86,7 @@ float coverageOf(TexelBlock block) {
 TableLookup lookupOf(TexelBlock block) {
   countLookups(1);
   vec4 scales = texelFetch(ndf_atlas_blocks, ivec2(2 * block.place.x, block.place.y), 0);
-  return TableLookup(vec2(block.place) * tableNodes(), block.weights * scales);
+  return TableLookup(vec2(block.place) * ndf_atlas_lattice[0], block.weights * scales);
 }
 
 // The tables of a footprint, and the share of it that they cover.
@@ -120,8 +119,8 @@ float nodesAt(TableLookup lookup, vec2 node, vec2 texel) {
 // A lookup over Lambert's equal-area map. Beyond the lattice the border nodes continue.
 float tableSum(Tables t, vec3 h) {
   vec2 plane = h.xy * inversesqrt(max(0.5 + 0.5 * h.z, 1e-4));
-  vec2 node = (plane - vec2(ndf_atlas_origin_x, ndf_atlas_origin_y)) / vec2(ndf_atlas_step_x, ndf_atlas_step_y);
-  node = clamp(node, vec2(0.0), tableNodes() - 1.0) + 0.5;
+  vec2 node = (plane - ndf_atlas_lattice[1]) / ndf_atlas_lattice[2];
+  node = clamp(node, vec2(0.0), ndf_atlas_lattice[0] - 1.0) + 0.5;
   vec2 texel = 1.0 / vec2(textureSize(ndf_atlas_densities, 0));
   float sum = 0.0;
   for (int i = 0; i < shared_count; ++i) sum += nodesAt(shared_lookups[i], node, texel);

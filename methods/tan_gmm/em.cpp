@@ -1,6 +1,5 @@
-// The E-step, the M-step with the prior, and their iteration. Isotropic Gaussians skip components without weight.
-// Gaussians with a full covariance are fitted sample by sample in 64 bits: a reference for isotropic ones, not a fast
-// method.
+// The E-step, the M-step with the prior, and their iteration. Isotropic Gaussians skip components without weight. Full
+// covariances are fitted sample by sample in 64 bits: a reference for isotropic ones, not a fast method.
 #include "methods/tan_gmm/em.hpp"
 
 #include <algorithm>
@@ -36,12 +35,11 @@ Sums sums_of_one(const Samples& samples, const Terms& terms) {
   Sums sums;
   for (std::size_t j = 0; j < samples.size(); ++j) {
     const double weight = samples.weight[j];
-    const double dx = static_cast<double>(samples.x[j]) - terms.x[0];
-    const double dy = static_cast<double>(samples.y[j]) - terms.y[0];
+    const glm::dvec2 d = glm::dvec2(samples.at(j)) - glm::dvec2(terms.x[0], terms.y[0]);
     sums.weight[0] += weight;
-    sums.dx[0] += weight * dx;
-    sums.dy[0] += weight * dy;
-    sums.square[0] += weight * (dx * dx + dy * dy + samples.spread[j]);
+    sums.dx[0] += weight * d.x;
+    sums.dy[0] += weight * d.y;
+    sums.square[0] += weight * (d.x * d.x + d.y * d.y + samples.spread[j]);
   }
   sums.log_likelihood = terms.constant[0] * sums.weight[0] - terms.factor[0] * sums.square[0];
   return sums;
@@ -49,10 +47,20 @@ Sums sums_of_one(const Samples& samples, const Terms& terms) {
 
 // Sums over samples of weight times responsibility, about the component's mean before the step.
 struct FullSums {
-  double weight = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  double weight = 0;
+  glm::dvec2 first{0.0};
+  double xx = 0, xy = 0, yy = 0;
+
+  void add(double w, const glm::dvec2& d, double spread) {
+    weight += w;
+    first += w * d;
+    xx += w * (d.x * d.x + spread);
+    xy += w * d.x * d.y;
+    yy += w * (d.y * d.y + spread);
+  }
 };
 
-// log(alpha g) as constant - (xx dx^2 + 2 xy dx dy + yy dy^2) / 2.
+// log(alpha g) as constant - (xx dx^2 + 2 xy dx dy + yy dy^2) / 2; -infinity for an absent component.
 struct LogDensity {
   double constant = 0, xx = 0, xy = 0, yy = 0;
 
@@ -65,95 +73,64 @@ struct LogDensity {
     xy = -g.xy / determinant;
     yy = a / determinant;
   }
+  // The mean over points of a variance `spread` per axis.
+  [[nodiscard]] double at(const glm::dvec2& d, double spread) const {
+    return constant - 0.5 * (xx * (d.x * d.x + spread) + yy * (d.y * d.y + spread)) - xy * d.x * d.y;
+  }
 };
 
-class FullStep {
- public:
-  explicit FullStep(std::span<FullGaussian> mixture) : mixture_(mixture) {}
+using AllSums = std::array<FullSums, most_components>;
 
-  // The E-step; returns the log-likelihood. A sample with a spread contributes the mean log density of its points.
-  double expect(const Samples& samples) {
-    std::array<std::size_t, most_components> index{};
-    std::size_t count = 0;
-    std::array<double, most_components> log_share{};
-    densities_.clear();
-    for (std::size_t i = 0; i < mixture_.size(); ++i) {
-      sums_[i] = {};
-      if (mixture_[i].alpha <= 0.0) continue;
-      index[count++] = i;
-      densities_.emplace_back(mixture_[i]);
-    }
-    double likelihood = 0.0;
-    for (std::size_t j = 0; j < samples.size() && count > 0; ++j) {
-      const double spread = 0.5 * static_cast<double>(samples.spread[j]);  // per axis
-      double most = -std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < count; ++k) {
-        const FullGaussian& g = mixture_[index[k]];
-        const LogDensity& d = densities_[k];
-        const double dx = static_cast<double>(samples.x[j]) - g.x;
-        const double dy = static_cast<double>(samples.y[j]) - g.y;
-        log_share[k] = d.constant - 0.5 * (d.xx * (dx * dx + spread) + d.yy * (dy * dy + spread)) - d.xy * dx * dy;
-        most = std::max(most, log_share[k]);
-      }
-      double total = 0.0;
-      for (std::size_t k = 0; k < count; ++k) total += log_share[k] = std::exp(log_share[k] - most);
-      likelihood += static_cast<double>(samples.weight[j]) * (most + std::log(total));
-      for (std::size_t k = 0; k < count; ++k) {
-        const FullGaussian& g = mixture_[index[k]];
-        add(sums_[index[k]], static_cast<double>(samples.weight[j]) * log_share[k] / total,
-            static_cast<double>(samples.x[j]) - g.x, static_cast<double>(samples.y[j]) - g.y, spread);
-      }
-    }
-    return likelihood;
+// The E-step; returns the log-likelihood. A sample with a spread contributes the mean log density of its points.
+double expect(const Samples& samples, std::span<const FullGaussian> mixture, AllSums& sums) {
+  const std::vector<LogDensity> densities(mixture.begin(), mixture.end());
+  std::array<double, most_components> share{};
+  sums.fill({});
+  double likelihood = 0.0;
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    const double spread = 0.5 * static_cast<double>(samples.spread[j]), weight = samples.weight[j];
+    const auto from_mean = [&](std::size_t k) {
+      return glm::dvec2(samples.at(j)) - glm::dvec2(mixture[k].x, mixture[k].y);
+    };
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < mixture.size(); ++k)
+      most = std::max(most, share[k] = densities[k].at(from_mean(k), spread));
+    double total = 0.0;
+    for (std::size_t k = 0; k < mixture.size(); ++k) total += share[k] = std::exp(share[k] - most);
+    likelihood += weight * (most + std::log(total));
+    for (std::size_t k = 0; k < mixture.size(); ++k) sums[k].add(weight * share[k] / total, from_mean(k), spread);
   }
+  return likelihood;
+}
 
-  void maximise(const Prior& prior, double total) {
-    for (std::size_t i = 0; i < mixture_.size(); ++i) {
-      FullGaussian& g = mixture_[i];
-      const FullSums& s = sums_[i];
-      if (s.weight <= 1e-12 * total) {
-        g.alpha = 0.0;
-        continue;
-      }
-      const double x = s.x / s.weight;  // of the samples, relative to the mean before the step
-      const double y = s.y / s.weight;
-      const double pull = 2.0 * prior.weight(i);
-      // (N I + pull S) d = N m + pull S (mu_0 - mu).
-      const double to_x = prior.mean_x(i) - g.x;
-      const double to_y = prior.mean_y(i) - g.y;
-      const double a = s.weight + pull * g.xx;
-      const double b = pull * g.xy;
-      const double c = s.weight + pull * g.yy;
-      const double right_x = s.x + pull * (g.xx * to_x + g.xy * to_y);
-      const double right_y = s.y + pull * (g.xy * to_x + g.yy * to_y);
-      const double determinant = a * c - b * b;
-      const double dx = (c * right_x - b * right_y) / determinant;
-      const double dy = (a * right_y - b * right_x) / determinant;
-      g.alpha = s.weight / total;
-      g.x += dx;
-      g.y += dy;
-      // About the new mean: the scatter about the samples' mean plus the squared distance between the two means.
-      g.xx = std::max(s.xx / s.weight - x * x, 0.0) + (x - dx) * (x - dx);
-      g.yy = std::max(s.yy / s.weight - y * y, 0.0) + (y - dy) * (y - dy);
-      const double most = std::sqrt(g.xx * g.yy);
-      g.xy = std::clamp(s.xy / s.weight - x * y + (x - dx) * (y - dy), -most, most);
+void maximise(const AllSums& sums, const Prior& prior, double total, std::span<FullGaussian> mixture) {
+  for (std::size_t i = 0; i < mixture.size(); ++i) {
+    FullGaussian& g = mixture[i];
+    const FullSums& s = sums[i];
+    if (s.weight <= 1e-12 * total) {
+      g.alpha = 0.0;
+      continue;
     }
+    const glm::dvec2 own = s.first / s.weight;  // of the samples, relative to the mean before the step
+    // (N I + pull S) d = N m + pull S (mu_0 - mu).
+    const double pull = 2.0 * prior.weight(i);
+    const double to_x = prior.mean_x(i) - g.x, to_y = prior.mean_y(i) - g.y;
+    const double a = s.weight + pull * g.xx, b = pull * g.xy, c = s.weight + pull * g.yy;
+    const double right_x = s.first.x + pull * (g.xx * to_x + g.xy * to_y);
+    const double right_y = s.first.y + pull * (g.xy * to_x + g.yy * to_y);
+    const double determinant = a * c - b * b;
+    const glm::dvec2 d((c * right_x - b * right_y) / determinant, (a * right_y - b * right_x) / determinant);
+    g.alpha = s.weight / total;
+    g.x += d.x;
+    g.y += d.y;
+    // About the new mean: the scatter about the samples' mean plus the squared distance between the two means.
+    const glm::dvec2 off = own - d;
+    g.xx = std::max(s.xx / s.weight - own.x * own.x, 0.0) + off.x * off.x;
+    g.yy = std::max(s.yy / s.weight - own.y * own.y, 0.0) + off.y * off.y;
+    const double most = std::sqrt(g.xx * g.yy);
+    g.xy = std::clamp(s.xy / s.weight - own.x * own.y + off.x * off.y, -most, most);
   }
-
- private:
-  static void add(FullSums& sums, double w, double dx, double dy, double spread) {
-    sums.weight += w;
-    sums.x += w * dx;
-    sums.y += w * dy;
-    sums.xx += w * (dx * dx + spread);
-    sums.xy += w * dx * dy;
-    sums.yy += w * (dy * dy + spread);
-  }
-
-  std::span<FullGaussian> mixture_;
-  std::vector<LogDensity> densities_;
-  std::array<FullSums, most_components> sums_{};
-};
+}
 
 // By how much a printed variance of component weight `weight` differs from the exact one, of M = `total` samples.
 double printed_share(VarianceStep variance, double weight, double total) {
@@ -254,12 +231,12 @@ void fit_full(const Samples& samples, const Prior& prior, const FitSettings& set
   const double total = samples.total_weight();
   const bool spread = std::ranges::any_of(mixture, [](const FullGaussian& g) { return g.alpha > 0.0 && g.xx > 0.0; });
   if (total <= 0.0 || !spread) return;  // a single normal for each component
-  FullStep step(mixture);
+  AllSums sums{};
   double posterior = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < settings.most_iterations; ++i) {
-    double now = step.expect(samples);
+    double now = expect(samples, mixture, sums);
     for (std::size_t k = 0; k < mixture.size(); ++k) now += prior.log_density(k, mixture[k].x, mixture[k].y);
-    step.maximise(prior, total);
+    maximise(sums, prior, total, mixture);
     if (now - posterior < settings.tolerance * total) break;
     posterior = now;
   }

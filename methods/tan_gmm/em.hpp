@@ -1,5 +1,4 @@
-// Expectation-maximisation with Tan's prior for one texel: a mixture of isotropic Gaussians over the unit disc, or of
-// Gaussians with a full covariance.
+// Expectation-maximisation with Tan's prior for one texel: Gaussians over the disc, isotropic or of full covariance.
 #pragma once
 
 #include <array>
@@ -44,8 +43,7 @@ class Prior {
   std::array<double, most_components> weight_{}, x_{}, y_{};  // sum and means over the neighbours
 };
 
-/// The update of the mean. exact: the maximum of the posterior. published: Tan's approximation, which weights the prior
-/// by c instead of 2 sigma^2 c.
+/// The mean's update. exact: the posterior's maximum. published: Tan's, whose prior weighs c, not 2 sigma^2 c.
 enum class MStep { exact, published };
 
 /// The update of the variance. exact: the responsibilities' mean of |n - mu|^2 / 2. published: as the paper prints it,
@@ -95,8 +93,7 @@ void maximise(const Expectation& e, const Prior& prior, MStep step, std::span<Ga
 /// The log of the prior of a mixture.
 [[nodiscard]] double log_prior(const Prior& prior, std::span<const Gaussian> mixture);
 
-/// Iterates until the posterior gains less than `tolerance` per unit of sample weight, `most_iterations` at most.
-/// Returns the posterior before the last step.
+/// Iterates until the posterior gains less than `tolerance` per unit of weight; returns that before the last step.
 double iterate(const Samples& samples, const Prior& prior, MStep step, int most_iterations, double tolerance,
                std::span<Gaussian> mixture, VarianceStep variance = VarianceStep::exact);
 

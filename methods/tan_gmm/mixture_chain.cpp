@@ -43,14 +43,10 @@ struct LevelFit {
   std::span<Image> stored;
   tbb::enumerable_thread_specific<Workspace>& workspaces;
 
-  void run(const std::function<void(double)>& report) const {
-    settings.align ? run_wavefront(report) : run_rows(report);
-  }
-
   // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them have no greater u and
   // no greater y. Therefore square blocks over (u, y) with equal sums of indices are independent. They run in parallel,
   // and every texel reads the same neighbours as in scanline order.
-  void run_wavefront(const std::function<void(double)>& report) const {
+  void run(const std::function<void(double)>& report) const {
     const int side = std::clamp(level.width / 32, 1, 16);
     const int rows = (level.height + side - 1) / side;
     const int reach = (level.width + side - 2) / side;  // row r has the blocks r to r + reach
@@ -71,16 +67,6 @@ struct LevelFit {
     for (int y = row * side; y < past; ++y) {
       const int end = std::min((column + 1) * side - y, level.width);
       for (int x = std::max(column * side - y, 0); x < end; ++x) fit(x, y, workspace);
-    }
-  }
-
-  void run_rows(const std::function<void(double)>& report) const {
-    for (int y = 0; y < level.height; ++y) {
-      tbb::parallel_for(tbb::blocked_range<int>(0, level.width), [&](const tbb::blocked_range<int>& columns) {
-        Workspace& workspace = workspaces.local();
-        for (int x = columns.begin(); x < columns.end(); ++x) fit(x, y, workspace);
-      });
-      report((y + 1.0) / level.height);
     }
   }
 

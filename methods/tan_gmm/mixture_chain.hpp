@@ -18,17 +18,15 @@ void cluster_start(const Samples& samples, std::span<Gaussian> mixture);
 /// miss spikes of equal normals inside a wider spread. Needs two components.
 void dense_start(const Samples& samples, std::span<Gaussian> mixture);
 
-/// Orders the components so that the prior is greatest, because the order of clusters is arbitrary. Components of alpha
-/// 0 get the prior's mean.
+/// Orders the components, arbitrary in clusters, so that the prior is greatest. Those of alpha 0 get the prior's mean.
 void match_order(const Prior& prior, std::span<Gaussian> mixture);
 
 /// Fits `mixture` to the samples. `parent`: the coarser texel's mixture, or empty. Without samples every alpha is 0.
 void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gaussian> parent,
                const FitSettings& settings, std::span<Gaussian> mixture);
 
-/// The stored second moment, which a linear filter can interpolate unlike the variance. corrected: alpha (2 sigma^2 +
-/// |mu|^2), the second moment of an isotropic Gaussian of the disc. published: Tan's alpha (sigma^2 + |mu|^2), which is
-/// that of one dimension.
+/// The stored second moment, which a linear filter can interpolate. corrected: alpha (2 sigma^2 + |mu|^2), that of an
+/// isotropic Gaussian of the disc. published: Tan's alpha (sigma^2 + |mu|^2), that of one dimension.
 enum class Moment { corrected, published };
 
 /// One mip chain per component, finest level first. Its 4 channels are alpha, alpha mu_x, alpha mu_y and alpha times

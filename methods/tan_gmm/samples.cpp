@@ -1,7 +1,6 @@
 // Gathers the points of a texel by shares of whole texels, merges repeats, and pools them.
 #include "methods/tan_gmm/samples.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -22,8 +21,7 @@ int cell_of(float coordinate) {
 
 double centre_of(int cell) { return (cell + 0.5) * cell_size - 1.0; }
 
-// The part of `fine` texels that texel i of `coarse` ones covers, in units of 1 / coarse of a fine texel, in which
-// every border is an integer.
+// The part of `fine` texels that texel i of `coarse` ones covers, in 1 / coarse of a fine texel: borders are integers.
 struct Span {
   std::int64_t begin, end, coarse;
 
@@ -173,16 +171,11 @@ PooledTiles::PooledTiles(const NormalField& normals)
   if (!fit(across_, down_)) return;
   tiles_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));
   tbb::enumerable_thread_specific<std::pair<CellPool, Samples>> workspaces;
-  tbb::parallel_for(tbb::blocked_range<int>(0, down_), [&](const tbb::blocked_range<int>& rows) {
+  tbb::parallel_for(0, across_ * down_, [&](int i) {
     auto& [cells, samples] = workspaces.local();
-    for (int row = rows.begin(); row < rows.end(); ++row) {
-      for (int column = 0; column < across_; ++column) {
-        normals_->gather(across_, down_, column, row, samples);
-        cells.pool(samples);
-        tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)] =
-            samples;
-      }
-    }
+    normals_->gather(across_, down_, i % across_, i / across_, samples);
+    cells.pool(samples);
+    tiles_[static_cast<std::size_t>(i)] = samples;
   });
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "renderer/image/image.hpp"
@@ -19,6 +20,7 @@ struct Samples {
   std::vector<float> x, y, spread, weight;  ///< of equal size; weight > 0, in texels of the finest level
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] glm::vec2 at(std::size_t i) const { return {x[i], y[i]}; }
   [[nodiscard]] double total_weight() const;
   void add(float x_, float y_, float spread_, float weight_);
   void append(const Samples& others);
@@ -69,8 +71,7 @@ class CellPool {
   std::vector<std::uint32_t> touched_;  // in the order of the first sample
 };
 
-/// The normals of a map in tiles of 16 x 16 texels, each pooled once. Levels whose texels consist of whole tiles start
-/// from the pooled samples.
+/// The normals of a map in tiles of 16 x 16 texels, pooled once, for levels whose texels consist of whole tiles.
 class PooledTiles {
  public:
   static constexpr int side = 16;

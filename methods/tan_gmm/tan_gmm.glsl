@@ -53,8 +53,7 @@ Component recovered(vec4 filtered) {
 float heightOver(vec2 mean) { return sqrt(max(1.0 - dot(mean, mean), 0.0)); }
 
 //? if lobe_gaussian
-// The variance of the base lobe over the disc. From above, a solid angle shrinks by the cosine, but a lobe on the rim
-// still reaches its own width above it.
+// The base lobe's variance over the disc: smaller by the cosine, but on the rim its own width still reaches above.
 float baseOverDisc(float variance, float height) {
   return variance * min(max(height, sqrt(variance)), 1.0);  //? if foreshorten_on
   return variance;                                          //? else
@@ -113,8 +112,7 @@ float lobeOverComponent(Effective e, int i, vec3 h) {
 }
 
 //? if multi_lobe
-// Lobe k about its axis, turned with the mean. `own`: h in the frame of the mean. A lobe with an axis below the horizon
-// is not over the disc.
+// Lobe k about its axis, turned with the mean, if that is over the disc. `own`: h in the frame of the mean.
 float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
   vec3 axis = turnedWithNormal(facet_lobes[k].axis, e.mean[i]);
   if (axis.z <= 0.0 || e.amount[i] <= 0.0) return 0.0;
@@ -125,8 +123,7 @@ float lobeOverComponent(Effective e, int i, int k, vec3 h, vec3 own) {
 //? end
 //? else
 // The base lobe about the component's mean, widened by the component's spread. An area of the disc is the cosine times
-// its solid angle. Therefore the round lobe of the same area has the spread divided by the cosine or, on the rim, by
-// its own width.
+// its solid angle, so the round lobe has the spread over the cosine or, on the rim, over its own width.
 void setLobe(inout Effective e, int i, float share, vec2 mean, float height, float spread) {
   float around = spread <= 0.0 ? 0.0 : spread / max(height, sqrt(spread));
   e.width[i] = spread <= 0.0 ? e.lobe : lobeFromVariance(lobeVariance(e.lobe) + around);

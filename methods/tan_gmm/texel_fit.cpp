@@ -1,5 +1,4 @@
-// Starts EM from clusters of far-apart centres, from the densest cell and from the coarser texel, and keeps the
-// likeliest result. Matches components to the prior exactly.
+// Starts EM from far-apart clusters, the densest cell and the coarser texel, and keeps the likeliest, matched exactly.
 #include "methods/tan_gmm/mixture_chain.hpp"
 
 #include <algorithm>
@@ -14,32 +13,22 @@ namespace {
 constexpr int lloyd_steps = 4;
 constexpr float same_point = 1e-12F;  // squared distance of normals that differ by rounding only
 
-struct Point {
-  float x, y;
-};
-
-float squared_distance(const Samples& samples, std::size_t j, const Point& p) {
-  const float dx = samples.x[j] - p.x;
-  const float dy = samples.y[j] - p.y;
-  return dx * dx + dy * dy;
+float squared_distance(const Samples& samples, std::size_t j, const glm::vec2& p) {
+  const glm::vec2 d = samples.at(j) - p;
+  return glm::dot(d, d);
 }
 
-Point mean_of(const Samples& samples) {
-  double x = 0;
-  double y = 0;
-  for (std::size_t j = 0; j < samples.size(); ++j) {
-    x += static_cast<double>(samples.weight[j]) * samples.x[j];
-    y += static_cast<double>(samples.weight[j]) * samples.y[j];
-  }
-  const double total = samples.total_weight();
-  return {static_cast<float>(x / total), static_cast<float>(y / total)};
+glm::vec2 mean_of(const Samples& samples) {
+  glm::dvec2 sum(0.0);
+  for (std::size_t j = 0; j < samples.size(); ++j)
+    sum += static_cast<double>(samples.weight[j]) * glm::dvec2(samples.at(j));
+  return sum / samples.total_weight();
 }
 
-// Chooses the sample farthest from the mean, then repeatedly the one farthest from all centres. Returns fewer centres
-// if the samples are exhausted.
-std::size_t farthest_first(const Samples& samples, std::span<Point> centres) {
+// Chooses the sample farthest from the mean, then repeatedly that farthest from all centres, as long as there are any.
+std::size_t farthest_first(const Samples& samples, std::span<glm::vec2> centres) {
   std::vector<float> nearest(samples.size(), std::numeric_limits<float>::max());
-  Point last = mean_of(samples);
+  glm::vec2 last = mean_of(samples);
   for (std::size_t count = 0; count < centres.size(); ++count) {
     std::size_t farthest = 0;
     float most = -1.0F;
@@ -52,18 +41,21 @@ std::size_t farthest_first(const Samples& samples, std::span<Point> centres) {
       }
     }
     if (count > 0 && most <= same_point) return count;
-    last = {samples.x[farthest], samples.y[farthest]};
-    centres[count] = last;
+    centres[count] = last = samples.at(farthest);
   }
   return centres.size();
 }
 
 // Sums over the samples of one cluster, relative to its centre.
 struct Cluster {
-  double weight = 0, dx = 0, dy = 0, square = 0;
+  double weight = 0;
+  glm::dvec2 offset{0.0};
+  double square = 0;
+
+  [[nodiscard]] glm::dvec2 mean() const { return offset / weight; }
 };
 
-std::array<Cluster, most_components> assigned(const Samples& samples, std::span<const Point> centres) {
+std::array<Cluster, most_components> assigned(const Samples& samples, std::span<const glm::vec2> centres) {
   std::array<Cluster, most_components> clusters{};
   for (std::size_t j = 0; j < samples.size(); ++j) {
     std::size_t nearest = 0;
@@ -76,18 +68,15 @@ std::array<Cluster, most_components> assigned(const Samples& samples, std::span<
     const double w = samples.weight[j];
     Cluster& cluster = clusters[nearest];
     cluster.weight += w;
-    cluster.dx += w * (samples.x[j] - centres[nearest].x);
-    cluster.dy += w * (samples.y[j] - centres[nearest].y);
+    cluster.offset += w * glm::dvec2(samples.at(j) - centres[nearest]);
     cluster.square += w * (least + samples.spread[j]);
   }
   return clusters;
 }
 
-void move_to_means(std::span<Point> centres, std::span<const Cluster> clusters) {
+void move_to_means(std::span<glm::vec2> centres, std::span<const Cluster> clusters) {
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    if (clusters[i].weight <= 0) continue;
-    centres[i].x += static_cast<float>(clusters[i].dx / clusters[i].weight);
-    centres[i].y += static_cast<float>(clusters[i].dy / clusters[i].weight);
+    if (clusters[i].weight > 0) centres[i] += glm::vec2(clusters[i].mean());
   }
 }
 
@@ -104,13 +93,12 @@ Gaussian densest_spot(const Samples& samples) {
     Cluster& c = cells[cell(samples.y[j]) * across + cell(samples.x[j])];
     const double w = samples.weight[j];
     c.weight += w;
-    c.dx += w * samples.x[j];
-    c.dy += w * samples.y[j];
+    c.offset += w * glm::dvec2(samples.at(j));
   }
   const Cluster& most = *std::ranges::max_element(cells, {}, &Cluster::weight);
   return {.alpha = static_cast<float>(most.weight / samples.total_weight()),
-          .x = static_cast<float>(most.dx / most.weight),
-          .y = static_cast<float>(most.dy / most.weight),
+          .x = static_cast<float>(most.mean().x),
+          .y = static_cast<float>(most.mean().y),
           .variance = seed_variance};
 }
 
@@ -126,26 +114,20 @@ constexpr std::size_t fewest_for_histogram = 32;
 // Whether all samples are one normal, up to rounding.
 bool are_one_normal(const Samples& samples) {
   for (std::size_t j = 1; j < samples.size(); ++j) {
-    const bool apart = squared_distance(samples, j, {samples.x[0], samples.y[0]}) > same_point;
+    const bool apart = squared_distance(samples, j, samples.at(0)) > same_point;
     if (apart || samples.spread[j] > 0.0F) return false;
   }
   return true;
 }
 
-// Assigns a normal to the component that suits the neighbours best. Shared among several, it would be blended with
-// several.
-void give_whole(float x, float y, const Prior& prior, std::span<Gaussian> mixture) {
+// Assigns a normal to the component that suits the neighbours best; shared, it would be blended with several.
+void give_whole(const glm::vec2& normal, const Prior& prior, std::span<Gaussian> mixture) {
   std::size_t best = 0;
   for (std::size_t i = 0; i < mixture.size(); ++i) {
     mixture[i] = {.x = static_cast<float>(prior.mean_x(i)), .y = static_cast<float>(prior.mean_y(i))};
-    if (prior.log_density(i, x, y) > prior.log_density(best, x, y)) best = i;
+    if (prior.log_density(i, normal.x, normal.y) > prior.log_density(best, normal.x, normal.y)) best = i;
   }
-  mixture[best] = {.alpha = 1.0F, .x = x, .y = y, .variance = variance_floor};
-}
-
-void start_from_clusters(const Samples& samples, const Prior& prior, std::span<Gaussian> mixture) {
-  cluster_start(samples, mixture);
-  match_order(prior, mixture);
+  mixture[best] = {.alpha = 1.0F, .x = normal.x, .y = normal.y, .variance = variance_floor};
 }
 
 // Runs a few steps of EM from each start, and keeps the best.
@@ -161,7 +143,8 @@ void start_from_best(const Samples& samples, const Prior& prior, std::span<const
     greatest = posterior;
     std::ranges::copy(start, mixture.begin());
   };
-  start_from_clusters(samples, prior, start);
+  cluster_start(samples, start);
+  match_order(prior, start);
   try_start();
   if (mixture.size() > 1 && samples.size() >= fewest_for_histogram) {
     dense_start(samples, start);
@@ -177,9 +160,9 @@ void start_from_best(const Samples& samples, const Prior& prior, std::span<const
 }  // namespace
 
 void cluster_start(const Samples& samples, std::span<Gaussian> mixture) {
-  std::array<Point, most_components> storage{};
-  const std::span<Point> all(storage.data(), mixture.size());
-  const std::span<Point> centres = all.first(farthest_first(samples, all));
+  std::array<glm::vec2, most_components> storage{};
+  const std::span<glm::vec2> all(storage.data(), mixture.size());
+  const std::span<glm::vec2> centres = all.first(farthest_first(samples, all));
   std::array<Cluster, most_components> clusters = assigned(samples, centres);
   for (int step = 0; step < lloyd_steps; ++step) {
     move_to_means(centres, clusters);
@@ -190,12 +173,11 @@ void cluster_start(const Samples& samples, std::span<Gaussian> mixture) {
     const Cluster& c = clusters[i];
     mixture[i] = {};
     if (c.weight <= 0) continue;
-    const double dx = c.dx / c.weight;
-    const double dy = c.dy / c.weight;
-    const double variance = 0.5 * (c.square / c.weight - dx * dx - dy * dy);
+    const glm::dvec2 d = c.mean();
+    const double variance = 0.5 * (c.square / c.weight - d.x * d.x - d.y * d.y);
     mixture[i] = {.alpha = static_cast<float>(c.weight / total),
-                  .x = static_cast<float>(centres[i].x + dx),
-                  .y = static_cast<float>(centres[i].y + dy),
+                  .x = static_cast<float>(centres[i].x + d.x),
+                  .y = static_cast<float>(centres[i].y + d.y),
                   .variance = std::max(static_cast<float>(variance), variance_floor)};
   }
 }
@@ -246,9 +228,10 @@ void fit_texel(const Samples& samples, const Prior& prior, std::span<const Gauss
   if (samples.size() == 0) return;
   const bool inherit = settings.start == Start::inherit && !parent.empty();
   if (are_one_normal(samples)) {
-    give_whole(samples.x[0], samples.y[0], prior, mixture);
+    give_whole(samples.at(0), prior, mixture);
   } else if (settings.start == Start::clusters) {
-    start_from_clusters(samples, prior, mixture);
+    cluster_start(samples, mixture);
+    match_order(prior, mixture);
   } else if (inherit) {
     std::ranges::copy(parent, mixture.begin());
   } else {

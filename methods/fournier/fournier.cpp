@@ -23,8 +23,7 @@ struct Settings {
   Storage storage = parse_storage(options.word("storage"));
 };
 
-// The slope variance of the lobe that peaks are fitted with: the mean if the roughness varies or facets have several
-// lobes.
+// The slope variance of the lobe that peaks are fitted with: the mean if roughness varies or facets have several lobes.
 double base_variance(const Material& material) {
   if (width_map(material) == nullptr) return mean_lobe_variance(material);
   return lobe_variance_chain(material).back().texels.front();

@@ -1,5 +1,4 @@
-// Fournier 1992: every texel of the mip chain stores Phong peaks fitted to its distribution of normals, summed over the
-// texels of the footprint, 8 times as many as a texel has.
+// Fournier 1992: every texel stores Phong peaks fitted to its normals, summed over the footprint's eight texels.
 
 struct Peak {
   vec2 on_disc;     // axis

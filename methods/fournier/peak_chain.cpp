@@ -1,5 +1,4 @@
-// Pools the normals under every texel of every level, from those of the level below it, and stores what a fit makes of
-// them.
+// Pools the normals under every texel of every level from the level below, and stores what a fit makes of them.
 #include "methods/fournier/peak_chain.hpp"
 
 #include <fmt/format.h>

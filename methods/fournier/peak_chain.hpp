@@ -50,8 +50,7 @@ struct TexelPlace {
   std::size_t level, texel;
 };
 
-/// Fits one texel. target: its normals, pooled; children: the peaks of the texels below it. Called from several
-/// threads.
+/// Fits one texel. target: its normals, pooled; children: the peaks of the texels below. Called from several threads.
 using FitTexel =
     std::function<TexelFit(const TexelPlace& place, const std::vector<Peak>& target, std::vector<Moments> children)>;
 

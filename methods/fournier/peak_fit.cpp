@@ -196,8 +196,7 @@ class Objective {
     return products;
   }
 
-  // Transforms values over the lobes and their own derivatives (rows) to the derivatives of sum_i w_i L_i by the
-  // parameters. The matrix of this chain rule is sparse.
+  // Transforms values over lobes and their derivatives (rows) to derivatives by the parameters: a sparse chain rule.
   [[nodiscard]] Matrix by_parameters(const Point& point, const Matrix& rows) const {
     const double sum = std::max(point.roots.squaredNorm(), 1e-300);
     Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(rows.cols());

@@ -7,64 +7,37 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace footprint::fournier {
 namespace {
 
-// The increase of the variance about the means by the union of two sets. Computed from the difference of the means, so
-// that it does not cancel.
+// The increase of the variance about the means by a union, from the difference of the means, which does not cancel.
 double cost_of_union(const Moments& a, const Moments& b) {
   const double shared = a.weight * b.weight / (a.weight + b.weight);
   return shared * (a.sum / a.weight - b.sum / b.weight).squaredNorm();
 }
 
-struct Partner {
-  double cost = std::numeric_limits<double>::infinity();
-  std::size_t index = 0;
-};
-
-// The cheapest partner of set i among those after it.
-Partner cheapest_after(const std::vector<Moments>& sets, std::size_t i) {
-  Partner best;
-  for (std::size_t j = i + 1; j < sets.size(); ++j) {
-    if (sets[j].weight <= 0.0) continue;
-    const double cost = cost_of_union(sets[i], sets[j]);
-    if (cost < best.cost) best = {cost, j};
-  }
-  return best;
-}
-
-// Merges the cheapest pair into its first set, gives the second weight 0, and updates the partners of the sets before
-// them.
-void merge_cheapest_pair(std::vector<Moments>& sets, std::vector<Partner>& partners) {
-  const auto i = static_cast<std::size_t>(std::ranges::min_element(partners, {}, &Partner::cost) - partners.begin());
-  const std::size_t gone = partners[i].index;
-  sets[i].add(sets[gone]);
-  sets[gone] = {};
-  partners[gone] = {};
-  for (std::size_t k = 0; k < gone; ++k) {
-    if (sets[k].weight <= 0.0) continue;
-    if (k == i || partners[k].index == i || partners[k].index == gone) {
-      partners[k] = cheapest_after(sets, k);
-    } else if (k < i) {
-      const double cost = cost_of_union(sets[k], sets[i]);
-      if (cost < partners[k].cost) partners[k] = {cost, i};
+// Merges the pair whose union costs least into its first set, and removes the second.
+void merge_cheapest_pair(std::vector<Moments>& sets) {
+  std::size_t first = 0, second = 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (std::size_t j = i + 1; j < sets.size(); ++j) {
+      const double cost = cost_of_union(sets[i], sets[j]);
+      if (cost < least) std::tie(least, first, second) = std::tuple(cost, i, j);
     }
   }
-}
-
-// Indices sorted by weight, heaviest first; equal weights keep their order.
-std::vector<std::size_t> by_weight(const std::vector<Peak>& normals) {
-  std::vector<std::size_t> order(normals.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return normals[i].weight; });
-  return order;
+  sets[first].add(sets[second]);
+  sets.erase(sets.begin() + static_cast<std::ptrdiff_t>(second));
 }
 
 // Indices of the heaviest normals that are `apart` from each other, followed by the heaviest of the others.
 std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t count, double apart) {
-  std::vector<std::size_t> seeds, near;
-  for (const std::size_t i : by_weight(normals)) {
+  std::vector<std::size_t> order(normals.size()), seeds, near;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return normals[i].weight; });
+  for (const std::size_t i : order) {
     const bool is_apart = std::ranges::all_of(
         seeds, [&](std::size_t seed) { return (normals[seed].axis - normals[i].axis).norm() >= apart; });
     (is_apart ? seeds : near).push_back(i);
@@ -72,6 +45,14 @@ std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t 
   }
   for (std::size_t k = 0; seeds.size() < count; ++k) seeds.push_back(near[k]);
   return seeds;
+}
+
+// Of each set, the heaviest first.
+std::vector<Peak> sorted_peaks(const std::vector<Moments>& sets) {
+  std::vector<Peak> peaks;
+  for (const Moments& set : sets) peaks.push_back(peak_of(set));
+  std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
+  return peaks;
 }
 
 constexpr double disc_radius = 2.0;
@@ -88,10 +69,7 @@ std::vector<Peak> clustered_peaks(const std::vector<Peak>& normals, std::size_t 
         seeds, {}, [&](std::size_t seed) { return (normals[seed].axis - normal.axis).squaredNorm(); });
     sets[static_cast<std::size_t>(nearest - seeds.begin())].add(moments_of(normal));
   }
-  std::vector<Peak> peaks;
-  for (const Moments& set : sets) peaks.push_back(peak_of(set));
-  std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
-  return peaks;
+  return sorted_peaks(sets);
 }
 
 Moments moments_of(const Peak& peak) { return {peak.weight, peak.axis * (peak.weight / (1.0 + peak.spread))}; }
@@ -103,19 +81,9 @@ Peak peak_of(const Moments& moments) {
 }
 
 std::vector<Peak> merged_peaks(std::vector<Moments> sets, std::size_t count) {
-  const auto is_empty = [](const Moments& set) { return set.weight <= 0.0; };
-  std::erase_if(sets, is_empty);
-  if (sets.size() > count) {
-    std::vector<Partner> partners;
-    for (std::size_t i = 0; i < sets.size(); ++i) partners.push_back(cheapest_after(sets, i));
-    for (std::size_t left = sets.size(); left > count; --left) merge_cheapest_pair(sets, partners);
-    std::erase_if(sets, is_empty);
-  }
-  std::vector<Peak> peaks;
-  peaks.reserve(sets.size());
-  for (const Moments& set : sets) peaks.push_back(peak_of(set));
-  std::ranges::stable_sort(peaks, std::greater{}, &Peak::weight);
-  return peaks;
+  std::erase_if(sets, [](const Moments& set) { return set.weight <= 0.0; });
+  while (sets.size() > count) merge_cheapest_pair(sets);
+  return sorted_peaks(sets);
 }
 
 Eigen::Vector2d disc_from_direction(const Eigen::Vector3d& direction) {

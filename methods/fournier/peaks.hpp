@@ -9,8 +9,7 @@
 
 namespace footprint::fournier {
 
-/// Normals about an axis. `spread` is their slope variance per axis, without that of the base lobe; it is 0 for a
-/// single normal.
+/// Normals about an axis. `spread` is their slope variance per axis without that of the base lobe; 0 for one normal.
 struct Peak {
   double weight = 0.0;                  ///< >= 0
   Eigen::Vector3d axis{0.0, 0.0, 1.0};  ///< unit
@@ -93,8 +92,7 @@ struct VmfLobe {
   Eigen::Vector3d axis_by_t{0.0, 0.0, 0.0};
 };
 
-/// The integral over the sphere of the product of two lobes, in closed form (Iwasaki 2012, equation 10, in a form that
-/// neither overflows nor cancels).
+/// The integral over the sphere of a product of two lobes (Iwasaki 2012, Eq. 10, without overflow or cancellation).
 [[nodiscard]] double product(const VmfLobe& a, const VmfLobe& b);
 
 /// The integrals of (a, da/dkappa, da/ds, da/dt) times b.
@@ -103,8 +101,7 @@ struct VmfLobe {
 /// The integrals of (a, da/dkappa, da/ds, da/dt), the rows, times (b, db/dkappa, db/ds, db/dt), the columns.
 [[nodiscard]] Eigen::Matrix4d products_of_derivatives(const VmfLobe& a, const VmfLobe& b);
 
-/// The result of one fit. Errors are L2 distances over the sphere between peaks and target, relative to the norm of the
-/// target.
+/// The result of one fit. Errors are L2 distances over the sphere from the target, relative to its norm.
 struct Fit {
   std::vector<Peak> peaks;  ///< weights sum to the target's; heaviest first
   double start_error = 0.0;

@@ -1,7 +1,6 @@
-// Peaks of every texel of the mip chain, which are unrelated to those of neighbouring texels and cannot be blended.
-// Therefore the peaks of all texels of the footprint are scaled by the texels' weights and summed for every light.
-// Includers define `struct Peak` with a weight, `const int peaks` of a texel above the finest level, which has one, and
-// the functions below.
+// Peaks of every texel of the mip chain, which cannot be blended with those of neighbouring texels. Therefore the peaks
+// of all texels of the footprint are scaled by the texels' weights and summed for every light. Includers define `struct
+// Peak` with a weight, `const int peaks` of a texel above the finest level, and the functions below.
 //? include lobe_variance.glsl
 
 struct Effective {

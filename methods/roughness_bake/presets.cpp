@@ -148,21 +148,13 @@ double widened_alpha2(const Formula& formula, NormalDistribution distribution, d
 }
 
 const FitTable& fit_table(NormalDistribution distribution) {
-  static constexpr FitTable blinn_phong{2.200, 2.300, 2.335, 2.510, 2.825, 2.940, 3.120, 3.355, 3.635, 3.950, 4.000};
-  static constexpr FitTable beckmann{2.155, 2.215, 2.225, 2.165, 2.020, 1.795, 1.470, 1.030, 0.450, 0.000, 0.000};
-  static constexpr FitTable ggx{2.015, 2.245, 2.330, 2.250, 2.010, 1.615, 1.085, 0.410, 0.000, 0.000, 0.000};
-  static constexpr FitTable vmf{2.080, 2.135, 2.135, 2.115, 2.085, 2.050, 2.020, 1.995, 2.000, 2.040, 2.125};
-  switch (distribution) {
-    case NormalDistribution::blinn_phong:
-      return blinn_phong;
-    case NormalDistribution::beckmann:
-      return beckmann;
-    case NormalDistribution::ggx:
-      return ggx;
-    case NormalDistribution::vmf:
-      break;
-  }
-  return vmf;
+  static constexpr std::array<FitTable, 4> tables{
+      // in the order of NormalDistribution
+      {{2.200, 2.300, 2.335, 2.510, 2.825, 2.940, 3.120, 3.355, 3.635, 3.950, 4.000},
+       {2.155, 2.215, 2.225, 2.165, 2.020, 1.795, 1.470, 1.030, 0.450, 0.000, 0.000},
+       {2.015, 2.245, 2.330, 2.250, 2.010, 1.615, 1.085, 0.410, 0.000, 0.000, 0.000},
+       {2.080, 2.135, 2.135, 2.115, 2.085, 2.050, 2.020, 1.995, 2.000, 2.040, 2.125}}};
+  return tables.at(static_cast<std::size_t>(distribution));
 }
 
 }  // namespace footprint::roughness_bake

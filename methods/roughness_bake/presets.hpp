@@ -1,5 +1,4 @@
-// The formulas by which engines bake the length of the mean normal into roughness mips, one per preset, in double
-// precision. baked_roughness.glsl has their twins.
+// Engines' formulas from the mean normal's length to roughness mips, in 64 bits (baked_roughness.glsl has twins).
 #pragma once
 
 #include <array>
@@ -46,9 +45,8 @@ struct Formula {
 /// results would name a preset that was not used.
 [[nodiscard]] Formula formula_of(const Options& options);
 
-/// The value that a texel stores, of which mip maps and texture filters take means: 1 / kappa, (1 - r) / r, both at
-/// most 100, or 1 - r. Of Filament 1e-4 where all normals agree. `shortfall` is 1 - r, 0 to 1, r the length of the mean
-/// normal.
+/// The value that a texel stores, of which filters take means: 1 / kappa, (1 - r) / r, both at most 100, or 1 - r. Of
+/// Filament 1e-4 where all normals agree. `shortfall` is 1 - r, 0 to 1, r the length of the mean normal.
 [[nodiscard]] double stored_spread(Preset preset, double shortfall);
 
 /// alpha'^2 of a lobe whose alpha^2 is twice its slope variance, over normals of the stored spread. Only `fit` depends
@@ -66,8 +64,7 @@ using FitTable = std::array<double, fit_points>;
 /// 1 / kappa of the mean resultant length r = 1 - q (Banerjee et al. 2005); 0 < q <= 1, infinite at 1.
 [[nodiscard]] double inverse_kappa(double q);
 
-/// 1 - r of the mean normal of the facets of a GGX lobe: r = (a - (1 - a^2) atanh a) / a^3, a^2 = 1 - alpha^2 (Chan
-/// 2018).
+/// 1 - r of the mean normal of a GGX lobe: r = (a - (1 - a^2) atanh a) / a^3, a^2 = 1 - alpha^2 (Chan 2018).
 [[nodiscard]] double ggx_shortfall(double alpha2);
 
 }  // namespace footprint::roughness_bake

@@ -21,8 +21,7 @@ namespace {
 // Bytes cannot store a sum of variances.
 Storage spread_storage(Storage storage) { return is_coarse(storage) ? Storage::fp16 : storage; }
 
-// Prepends finer levels of repeated texels, so that the chain begins with the given size. None if its finest level does
-// not fit into a chain of that size; a single texel always fits.
+// Prepends levels of repeated texels up to the given size. None if the finest level fits into no chain of that size.
 std::optional<std::vector<Image>> extended_chain(const std::vector<Image>& chain, int width, int height) {
   const Image& finest = chain.front();
   std::vector<Image> finer;

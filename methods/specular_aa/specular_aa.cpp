@@ -1,7 +1,5 @@
 // `specular_aa`: widens the lobe about the mean normal where normals change over the screen, by an engine's formula.
 // The roughness mips below it may be those that engines bake.
-#include <optional>
-
 #include "methods/roughness_bake/roughness_bake.hpp"
 #include "renderer/bake/method.hpp"
 #include "renderer/bake/normal_chain.hpp"
@@ -16,24 +14,6 @@ namespace {
 constexpr double default_constant = 0.3;
 constexpr double default_cap = 0.04;
 
-struct Settings {
-  std::optional<roughness_bake::Preset> bake;  // of the roughness mips
-  Storage storage;
-};
-
-// Refuses `constant` and `cap` of any preset but `free`, because results would name a preset that was not used.
-Settings settings_of(const Options& options) {
-  const std::string &preset = options.word("preset"), &bake = options.word("bake");
-  const bool has_own = options.number("constant") != default_constant || options.number("cap") != default_cap;
-  if (preset != "free" && has_own) {
-    throw Error(ErrorKind::usage, "specular_aa", "preset=" + preset + " has its own constant and cap",
-                "give preset=free for others, or leave `constant` and `cap` out");
-  }
-  Settings settings{.bake = {}, .storage = parse_storage(options.word("storage"))};
-  if (bake != "none") settings.bake = roughness_bake::preset_of(bake);
-  return settings;
-}
-
 // `none` and every preset of roughness_bake except `free`, which takes numbers.
 std::vector<std::string> bakes() {
   std::vector<std::string> words{"none"};
@@ -44,8 +24,15 @@ std::vector<std::string> bakes() {
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
                        const Progress& /*progress*/) {
-  const auto [bake, storage] = settings_of(options);
-  if (bake) return roughness_bake::bake_roughness(material, *bake, storage, effects);
+  const std::string &preset = options.word("preset"), &bake = options.word("bake");
+  if (preset != "free" &&
+      (options.number("constant") != default_constant || options.number("cap") != default_cap)) {  // not used
+    throw Error(ErrorKind::usage, "specular_aa", "preset=" + preset + " has its own constant and cap",
+                "give preset=free for others, or leave `constant` and `cap` out");
+  }
+  const Storage storage = parse_storage(options.word("storage"));
+  if (bake != "none")
+    return roughness_bake::bake_roughness(material, roughness_bake::preset_of(bake), storage, effects);
   Prefiltered out = bake_mean_normal(material, storage, effects);
   append(out.textures, bake_mean_roughness(material, storage, effects).textures);
   return out;

@@ -185,8 +185,13 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(e.
 //? else
 struct Effective {
   Facets facets;
-  Facets environment_facets;  //? if preset_babylon
+  Facets lit;  // by lights; an environment lights `facets`  //? if preset_babylon
 };
+
+Facets litFacets(Effective e) {
+  return e.lit;     //? if preset_babylon
+  return e.facets;  //? else
+}
 
 Effective effective(Footprints f) {
   float alpha2 = alpha2Before(f);
@@ -211,33 +216,23 @@ Effective effective(Footprints f) {
   Facets after = spreadFacets(n, 0.5 * alpha2, 0.5 * (screenWidened(alpha2, dx, dy) - alpha2));
 //? if preset_babylon
   float wide = 0.5 * (screenWidenedForEnvironment(alpha2, dx, dy) - alpha2);
-  return Effective(after, spreadFacets(n, 0.5 * alpha2, wide));
+  return Effective(spreadFacets(n, 0.5 * alpha2, wide), after);
 //? else
   return Effective(after);
 //? end
 //? end
 }
 
-float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
+float ndf(Effective e, vec3 h) { return facetDensity(litFacets(e), h); }
 
-Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(e.facets, s, wi, wo); }
+Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(litFacets(e), s, wi, wo); }
 //? if screen_derivatives
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo, HalfSteps steps) { return shade(e, s, wi, wo); }
 //? end
 //? end
 
 //? if lobes_listed
-int lobeCount(Effective e) { return facetLobeCount(); }
-
-//? if preset_babylon
-NormalLobe normalLobe(Effective e, int i) { return facetNormalLobe(e.environment_facets, i, 1.0); }
-//? else
-NormalLobe normalLobe(Effective e, int i) { return facetNormalLobe(e.facets, i, 1.0); }
-//? end
-
-float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
-}
+//? include facet_normal_lobes.glsl
 
 vec3 meanNormal(Effective e) { return e.facets.normal; }
 //? end

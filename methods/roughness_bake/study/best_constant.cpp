@@ -1,5 +1,4 @@
-// Integrates densities over the angle from the mean normal, about which normals are symmetric. Then the quantities that
-// experiments read.
+// Integrates over the angle from the mean normal, about which normals are symmetric; the quantities of experiments.
 #include "methods/roughness_bake/study/best_constant.hpp"
 
 #include <algorithm>

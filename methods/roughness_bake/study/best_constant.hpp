@@ -1,5 +1,4 @@
-// The constant of `fit`: the c of alpha'^2 = alpha^2 + c / kappa whose lobe is closest to the true distribution of
-// normals, by brute force.
+// The constant of `fit`, by brute force: the c of alpha'^2 = alpha^2 + c / kappa whose lobe is closest to the true NDF.
 #pragma once
 
 #include <array>

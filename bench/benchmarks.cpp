@@ -53,13 +53,15 @@ void edit(benchmark::State& state, const Patch& patch, std::size_t facets) {
   state.counters["triangles"] = static_cast<double>(patch.triangles.size());
 }
 
+// With CPU times, in milliseconds.
+benchmark::internal::Benchmark* add(const std::string& name, const auto& run) {
+  return benchmark::RegisterBenchmark(name.c_str(), run)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+}
+
 void register_edit(const std::string& name, Patch patch, std::size_t facets) {
-  benchmark::RegisterBenchmark(
-      ("iwasaki_sg/edit/" + name).c_str(),
-      [patch = std::move(patch), facets](benchmark::State& state) { edit(state, patch, facets); })
-      ->UseRealTime()
-      ->MeasureProcessCPUTime()
-      ->Unit(benchmark::kMillisecond);
+  add("iwasaki_sg/edit/" + name, [patch = std::move(patch), facets](benchmark::State& state) {
+    edit(state, patch, facets);
+  })->UseRealTime();
 }
 
 void fit_all_levels(benchmark::State& state, const Surface& surface, bool align) {
@@ -107,11 +109,7 @@ class BareFrame {
     gl::api().BindSampler(0, sampler_.name());
     for (std::size_t i = 0; i < normal_maps_.size(); ++i) {
       const GpuBatch& batch = gpu_scene_->batches()[i];
-      if (batch.double_sided) {
-        gl::api().Disable(GL_CULL_FACE);
-      } else {
-        gl::api().Enable(GL_CULL_FACE);
-      }
+      batch.double_sided ? gl::api().Disable(GL_CULL_FACE) : gl::api().Enable(GL_CULL_FACE);
       gl::api().BindTextureUnit(0, normal_maps_[i].texture->name());
       gl::api().BindVertexArray(batch.vertex_array.name());
       gl::api().DrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT, nullptr);
@@ -168,13 +166,10 @@ void register_iwasaki_benchmarks() {
 void register_tan_gmm_benchmarks() {
   for (const Surface& surface : all_surfaces()) {
     for (const bool align : {true, false}) {
-      const std::string name = "tan_gmm/" + surface.name + (align ? "/aligned" : "/unaligned");
-      benchmark::RegisterBenchmark(
-          name.c_str(), [&surface, align](benchmark::State& state) { fit_all_levels(state, surface, align); })
+      add("tan_gmm/" + surface.name + (align ? "/aligned" : "/unaligned"),
+          [&surface, align](benchmark::State& state) { fit_all_levels(state, surface, align); })
           ->Arg(512)
-          ->UseRealTime()
-          ->MeasureProcessCPUTime()
-          ->Unit(benchmark::kMillisecond);
+          ->UseRealTime();
     }
   }
 }
@@ -197,10 +192,7 @@ std::optional<Scene> load_bench_scene(const std::string& name) {
 
 void register_frame_benchmark(Scene scene) {
   const auto subject = std::make_shared<const BareScene>(std::move(scene));
-  benchmark::RegisterBenchmark("frame/bare", [subject](benchmark::State& state) { draw_frames(state, *subject); })
-      ->UseManualTime()
-      ->MeasureProcessCPUTime()
-      ->Unit(benchmark::kMillisecond);
+  add("frame/bare", [subject](benchmark::State& state) { draw_frames(state, *subject); })->UseManualTime();
 }
 
 }  // namespace bench

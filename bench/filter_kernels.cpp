@@ -67,20 +67,17 @@ void paint(Image& picture, int column, int row, const Image& kernel, double heig
 void run(const std::string& file) {
   Image picture((static_cast<int>(filters.size()) + 1) * (edge + 2), static_cast<int>(cases.size()) * (edge + 2), 3,
                 0.25F);
-  std::string table = "| filter | lookups |";
-  for (const Case& c : cases) table += fmt::format(" {}: along | across | apart |", c.name);
-  table += "\n|---|---:|" + std::string(3 * cases.size() * 5, ' ');
-  table.resize(table.find_last_not_of(' ') + 1);
-  for (std::size_t i = 0; i < 3 * cases.size(); ++i) table += "---:|";
-  std::vector<std::vector<Image>> boxes;
-  for (const Case& c : cases) {
-    std::vector<Image> own;
-    own.reserve(phases);
-    for (int i = 0; i < phases; ++i) own.push_back(box_kernel({place(i), c.dx, c.dy}, edge));
-    boxes.push_back(std::move(own));
+  std::string table = "| filter | lookups |", rule = "\n|---|---:|";
+  std::vector<std::vector<Image>> boxes(cases.size());
+  std::vector<double> heights;
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    table += fmt::format(" {}: along | across | apart |", cases[c].name);
+    rule += "---:|---:|---:|";
+    for (int i = 0; i < phases; ++i) boxes[c].push_back(box_kernel({place(i), cases[c].dx, cases[c].dy}, edge));
+    heights.push_back(std::ranges::max(boxes[c][0].texels));
+    paint(picture, 0, static_cast<int>(c), boxes[c][0], heights[c]);
   }
-  const auto height = [&](std::size_t c) { return static_cast<double>(std::ranges::max(boxes[c][0].texels)); };
-  for (std::size_t c = 0; c < cases.size(); ++c) paint(picture, 0, static_cast<int>(c), boxes[c][0], height(c));
+  table += rule;
   for (std::size_t f = 0; f < filters.size(); ++f) {
     const FootprintFilter filter = parse_footprint_filter(filters[f], "");
     std::size_t most = 0;
@@ -90,7 +87,7 @@ void run(const std::string& file) {
       most = std::max(most, probes_of(filter, at).probes.size());
       const Figures figures = figures_of(filter, cases[c], boxes[c]);
       row += fmt::format(" {:.2f} | {:.2f} | {:.2f} |", figures.along, figures.across, figures.apart);
-      paint(picture, static_cast<int>(f) + 1, static_cast<int>(c), filter_kernel(filter, at, edge), height(c));
+      paint(picture, static_cast<int>(f) + 1, static_cast<int>(c), filter_kernel(filter, at, edge), heights[c]);
     }
     table += fmt::format("\n| `{}` | {} |{}", filters[f], most, row);
   }

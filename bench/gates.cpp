@@ -91,12 +91,12 @@ Scene repeated_map(int resolution, int maps) {
   return scene;
 }
 
-// The times and lookups of the methods at one width of the camera.
-struct Row {
+// The times and lookups of a method, by width of the camera.
+struct Figures {
   std::vector<double> ms, lookups;
 };
 
-Row row_at(const Stage& stage, const View& view, int repeats) {
+void add_figures(const Stage& stage, const View& view, int repeats, std::vector<Figures>& figures) {
   RepeatedTimes times(stage.methods().size());  // CPU time, which other load on the machine hardly moves
   std::vector<DrawFrame> candidates;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -108,13 +108,11 @@ Row row_at(const Stage& stage, const View& view, int repeats) {
     });
   }
   (void)interleaved_times(stage.context().info(), candidates, repeats, no_progress);
-  Row row;
   for (std::size_t i = 0; i < times.size(); ++i) {
     times[i].erase(times[i].begin(), times[i].end() - repeats);  // rounds that warm up
-    row.ms.push_back(quantile(times[i], 0.5));
-    row.lookups.push_back(pixel_work(stage.counting_frames(stage.methods()[i], Counting::work), view).lookups);
+    figures[i].ms.push_back(quantile(times[i], 0.5));
+    figures[i].lookups.push_back(pixel_work(stage.counting_frames(stage.methods()[i], Counting::work), view).lookups);
   }
-  return row;
 }
 
 // The greatest of some figures over their median.
@@ -154,28 +152,26 @@ void print_footprint_sizes(const std::string& methods, int resolution, int repea
   const Stage stage(repeated_map(resolution, frame_pixels.x + 1), settings, no_progress);
   fmt::print("{:<10}", "texels");
   for (const StagedMethod& method : stage.methods()) fmt::print(" {:>44}", method.baked().spec.text);
-  std::vector<std::vector<double>> ms(stage.methods().size()), lookups(stage.methods().size());
+  std::vector<Figures> figures(stage.methods().size());
   for (int texels = 1; texels <= resolution; texels *= 2) {
     View view = stage.view(1.0);
     view.camera.ymag = 0.5F * static_cast<float>(view.size.y * texels) / static_cast<float>(resolution);
-    const Row row = row_at(stage, view, repeats);
+    add_figures(stage, view, repeats, figures);
     fmt::print("\n{:<10}", fmt::format("{}^2", texels));
-    for (std::size_t i = 0; i < row.ms.size(); ++i) {
-      fmt::print(" {:>44}", fmt::format("{:.1f} ms, {:.1f} lookups", row.ms[i], row.lookups[i]));
-      ms[i].push_back(row.ms[i]);
-      lookups[i].push_back(row.lookups[i]);
-    }
+    for (const auto& [ms, lookups] : figures)
+      fmt::print(" {:>44}", fmt::format("{:.1f} ms, {:.1f} lookups", ms.back(), lookups.back()));
     (void)std::fflush(stdout);
   }
   fmt::print("\n{:<10}", "greatest");
-  for (std::size_t i = 0; i < ms.size(); ++i)
-    fmt::print(" {:>44}", fmt::format("{:.2f}, {:.2f} of the median", over_median(ms[i]), over_median(lookups[i])));
+  for (const auto& [ms, lookups] : figures)
+    fmt::print(" {:>44}", fmt::format("{:.2f}, {:.2f} of the median", over_median(ms), over_median(lookups)));
   fmt::print("\n");
-  for (std::size_t i = 0; i < ms.size(); ++i) {
-    if (most_ratio <= 0.0 || over_median(ms[i]) <= most_ratio) continue;
-    throw Error(ErrorKind::check, stage.methods()[i].baked().spec.text,
-                fmt::format("its most expensive footprint takes {:.3g} times the median, {:.3g} are allowed",
-                            over_median(ms[i]), most_ratio));
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const double ratio = over_median(figures[i].ms);
+    if (most_ratio > 0.0 && ratio > most_ratio)
+      throw Error(ErrorKind::check, stage.methods()[i].baked().spec.text,
+                  fmt::format("its most expensive footprint takes {:.3g} times the median, {:.3g} are allowed", ratio,
+                              most_ratio));
   }
 }
 

@@ -174,44 +174,37 @@ std::vector<std::vector<Errors>> errors_by_level(const gl::Context& context, con
 }
 
 std::string head_of(const Request& request) {
-  std::string head = "| lobe | level |";
-  std::string rule = "\n|---|---:|";
-  for (const int terms : request.terms) {
-    head += fmt::format(" R = {} | not negative |", terms);
-    rule += "---:|---:|";
-  }
-  for (const MethodSpec& spec : parse_methods(request.methods)) {
-    head += fmt::format(" `{}` |", spec.text);
-    rule += "---:|";
-  }
-  return head + rule;
+  std::vector<std::string> titles{"| lobe | level"};
+  for (const int terms : request.terms) titles.push_back(fmt::format("R = {} | not negative", terms));
+  for (const MethodSpec& spec : parse_methods(request.methods)) titles.push_back(fmt::format("`{}`", spec.text));
+  const std::string head = fmt::format("{} |", fmt::join(titles, " | "));
+  const std::vector<std::string> rule(static_cast<std::size_t>(std::ranges::count(head, '|')) - 2, "---:|");
+  return fmt::format("{}\n|---|{}", head, fmt::join(rule, ""));
 }
 
-// Sums of logarithms, for geometric means over maps.
-void add_logs(const std::vector<Errors>& errors, std::vector<Errors>& sums) {
-  sums.resize(errors.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    sums[i].rms += std::log(std::max(errors[i].rms, smallest));
-    sums[i].median += std::log(std::max(errors[i].median, smallest));
-  }
+// Geometric mean over maps.
+double mean_of(const std::vector<std::vector<Errors>>& maps, std::size_t column, double Errors::*part) {
+  double sum = 0.0;
+  for (const std::vector<Errors>& map : maps) sum += std::log(std::max(map[column].*part, smallest));
+  return std::exp(sum / static_cast<double>(maps.size()));
 }
 
 std::string table_of(const Request& request) {
   const gl::Context context({});
   std::string table = head_of(request);
-  const auto maps = static_cast<double>(request.maps.size());
   for (const std::string& lobe : request.lobes) {
-    std::vector<std::vector<Errors>> sums(request.levels.size());
+    std::vector<std::vector<std::vector<Errors>>> levels(request.levels.size());  // by map and column
     for (const std::string& map : request.maps) {
       const NdfSource source = load_ndf_source({.path = map}, "", {});
       const auto errors = errors_by_level(context, request,
                                           cut(with_lobe(source.material, parse_lobe("--lobes", lobe)), request.middle));
-      for (std::size_t i = 0; i < sums.size(); ++i) add_logs(errors[i], sums[i]);
+      for (std::size_t i = 0; i < levels.size(); ++i) levels[i].push_back(errors[i]);
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (std::size_t i = 0; i < levels.size(); ++i) {
       table += fmt::format("\n| `{}` | {} |", lobe, request.levels[i]);
-      for (const Errors& sum : sums[i])
-        table += fmt::format(" {:.3g}; {:.3g} |", std::exp(sum.rms / maps), std::exp(sum.median / maps));
+      for (std::size_t column = 0; column < levels[i].front().size(); ++column)
+        table += fmt::format(" {:.3g}; {:.3g} |", mean_of(levels[i], column, &Errors::rms),
+                             mean_of(levels[i], column, &Errors::median));
     }
   }
   return table;
@@ -238,9 +231,7 @@ int run(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    const bool is_help = error.get_exit_code() == 0;
-    (void)app.exit(error);
-    return is_help ? 0 : static_cast<int>(ErrorKind::usage);
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
   }
   fmt::print("{}\n", table_of(request));
   return 0;

@@ -56,12 +56,8 @@ enum class AnimationPath {
 };
 
 /// As users write it.
-inline constexpr std::array<Word<AnimationPath>, 4> animation_paths{{
-    {AnimationPath::zoom, "zoom"},
-    {AnimationPath::orbit, "orbit"},
-    {AnimationPath::light, "light"},
-    {AnimationPath::animation, "animation"},
-}};
+inline constexpr auto animation_paths =
+    own_words<AnimationPath::zoom, AnimationPath::orbit, AnimationPath::light, AnimationPath::animation>;
 constexpr const auto& words_of(AnimationPath /*path*/) { return animation_paths; }
 
 /// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.

@@ -46,42 +46,28 @@ SpirvProgram calibration() {
                        "textureLod(second, gl_FragCoord.yx, 0.0); }\n");
 }
 
-TextureCost cost_of_texture(const BoundTexture& texture) {
-  return {.name = texture.name, .bits = texture.bits, .trilinear = texture.trilinear, .bytes = texture.bytes};
-}
-
 // Whether samples of a method's map read its finest level whatever the footprint, because it has no other.
-bool has_one_level(const BakedMethod& baked, const BoundTexture& texture) {
+bool has_one_level(const BakedMethod& baked, const ReadTexture& texture) {
   return std::ranges::any_of(baked.materials.front().textures, [&](const PrefilteredTexture& map) {
     return map.name == texture.name && map.filter != TextureFilter::linear && map.levels.size() == 1 && map.layers <= 1;
   });
 }
 
-std::map<int, TextureCost> costs_of(const std::vector<BoundTexture>& textures, const BakedMethod& baked) {
-  std::map<int, TextureCost> costs;
-  for (std::size_t unit = 0; unit < textures.size(); ++unit) {
-    TextureCost& cost = costs[static_cast<int>(unit)] = cost_of_texture(textures[unit]);
-    if (has_one_level(baked, textures[unit])) cost.finest_texels = 8.0 * cost.bytes / cost.bits;
+std::map<int, ReadTexture> textures_of(const FrameRenderer& frames, const BakedMethod& baked) {
+  std::map<int, ReadTexture> textures = frames.program().bound_textures();
+  for (auto& [unit, texture] : textures) {
+    if (has_one_level(baked, texture)) texture.finest_texels = 8.0 * texture.bytes / texture.bits;
   }
-  return costs;
-}
-
-std::map<int, TextureCost> costs_of(const std::map<int, BoundTexture>& textures) {
-  std::map<int, TextureCost> costs;
-  for (const auto& [unit, texture] : textures) costs[unit] = cost_of_texture(texture);
-  return costs;
+  return textures;
 }
 
 CostedProgram program_of(const RecordedDraw& draw) {
-  CostedProgram program{.vertex = draw.vertex, .fragment = draw.fragment, .targets = {}};
-  for (const TexelFormat& target : draw.targets)
-    program.targets.push_back({.channels = target.channels, .bits = target.bits});
-  return program;
+  return {.vertex = draw.vertex, .fragment = draw.fragment, .targets = draw.targets};
 }
 
 double written_bytes(const RecordedDraw& draw) {
   double bytes = 0;
-  for (const TexelFormat& target : draw.targets) bytes += target.bytes();
+  for (const ColorTarget& target : draw.targets) bytes += target.bytes();
   return bytes;
 }
 
@@ -174,7 +160,7 @@ MethodCosts GpuCosts::own_costs(const StagedMethod& method, const View& view, co
   costs.map_bytes = static_cast<double>(method.baked().bytes);
   const CostedFrame frame{.name = name_of(method),
                           .programs = weighed_programs(method, trips),
-                          .textures = costs_of(counting.program().bound_textures(), method.baked()),
+                          .textures = textures_of(counting, method.baked()),
                           .passes = method.gpu().draws_per_frame(view),
                           .work = work};
   ProgressParts parts(progress, static_cast<double>(chips_.size()));
@@ -245,8 +231,7 @@ double GpuCosts::passes_ns(const CompilingChip& chip, const CostedFrame& frame) 
     }
     const auto [work, is_new] = works.try_emplace(program_of(draw));
     if (is_new) work->second = shader_work(chip.compiled.at(work->first).stage->code, chip.between_descriptors);
-    const GpuCost pixel =
-        estimate(*chip.chip, {{1.0, work->second}}, draw.lookups, costs_of(draw.textures), written_bytes(draw));
+    const GpuCost pixel = estimate(*chip.chip, {{1.0, work->second}}, draw.lookups, draw.textures, written_bytes(draw));
     sum += draw.pixels * pixel.cost_ns;
   }
   return sum;

@@ -29,7 +29,7 @@ struct CostedFrame {
   std::string name;  ///< of the method, for messages
   /// Each with how often it counts in a frame (WeighedWork::weight); one with a single round per loop first.
   std::vector<std::pair<CostedProgram, double>> programs;
-  std::map<int, TextureCost> textures;  ///< by unit
+  std::map<int, ReadTexture> textures;  ///< by unit
   RecordedDraws passes;                 ///< that each frame repeats before it draws
   PixelWork work;                       ///< counted on the software renderer
 };

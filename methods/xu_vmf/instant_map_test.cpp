@@ -247,7 +247,7 @@ struct BuiltBytes {
 BuildTotals totals_of(const RecordedDraws& draws) {
   BuildTotals totals;
   for (const RecordedDraw& draw : draws) {
-    for (const TexelFormat& target : draw.targets)
+    for (const ColorTarget& target : draw.targets)
       (draw.fragment.empty() ? totals.copied : totals.written) += draw.pixels * target.bytes();
     totals.lookups += draw.pixels * draw.lookups;
   }

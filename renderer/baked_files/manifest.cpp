@@ -16,16 +16,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<Word<Wrap>, 3> wraps{
-    {{Wrap::repeat, "repeat"}, {Wrap::mirrored_repeat, "mirrored_repeat"}, {Wrap::clamp_to_edge, "clamp_to_edge"}}};
+constexpr auto wraps = own_words<Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge>;
 constexpr std::array<Word<TextureFilter>, 4> filters{{{TextureFilter::trilinear, "trilinear"},
                                                       {TextureFilter::nearest, "nearest"},
                                                       {TextureFilter::linear, "linear"},
                                                       {TextureFilter::by_level, "linear"}}};
-constexpr std::array<Word<GeometryTerm>, 4> geometries{{{GeometryTerm::none, "none"},
-                                                        {GeometryTerm::tan, "tan"},
-                                                        {GeometryTerm::ward, "ward"},
-                                                        {GeometryTerm::smith, "smith"}}};
+constexpr auto geometries = own_words<GeometryTerm::none, GeometryTerm::tan, GeometryTerm::ward, GeometryTerm::smith>;
 
 Json brdf_json(const BaseBrdf& brdf) {
   const std::string lobe = lobe_text({brdf.distribution, 1.0});

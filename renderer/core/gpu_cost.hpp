@@ -1,11 +1,33 @@
-// The estimated cost of a method on a GPU as a plain value, for what estimates it and what reports it.
+// The estimated cost of a method on a GPU, and the textures that it is due to, as plain values: for what records draws,
+// what estimates them, and what reports it.
 #pragma once
 
+#include <compare>
 #include <map>
 #include <optional>
 #include <string>
 
 namespace footprint {
+
+/// The texels of one target that a program draws into: floats.
+struct ColorTarget {
+  int channels = 4;  ///< 1, 2 or 4
+  int bits = 16;     ///< of a channel: 16 or 32
+
+  [[nodiscard]] double bytes() const { return channels * bits / 8.0; }
+  friend auto operator<=>(const ColorTarget&,
+                          const ColorTarget&) = default;  // NOLINT(modernize-use-nullptr): no pointer
+};
+
+/// A texture of a program, as far as its reads depend on it.
+struct ReadTexture {
+  std::string name;
+  int bits = 128;          ///< of a texel
+  bool trilinear = false;  ///< samples blend two mip levels
+  double bytes = 0;        ///< of all levels and layers
+  double finest_texels =
+      0;  ///< of the finest level, if samples read it whatever the footprint; 0: samples read levels that fit
+};
 
 /// The estimated cost of one method on one GPU, per pixel that the object covers (docs/explanation/gpu-cost.md).
 struct GpuCost {

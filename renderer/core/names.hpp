@@ -35,6 +35,19 @@ struct Word {
   std::string_view name;
 };
 
+/// The name of an enumerator in C++.
+template <auto enumerator>
+[[nodiscard]] constexpr std::string_view enumerator_name() {
+  const std::string_view text = __PRETTY_FUNCTION__;  // "... [with auto enumerator = footprint::Wrap::repeat; ..."
+  const std::size_t end = text.find_first_of(";]", text.find("enumerator = "));
+  const std::size_t start = text.rfind(':', end) + 1;
+  return text.substr(start, end - start);
+}
+
+/// The enumerators with their own names.
+template <auto... enumerators>
+inline constexpr std::array own_words{Word<decltype(enumerators)>{enumerators, enumerator_name<enumerators>()}...};
+
 /// The words of a table, in its order.
 template <class Value, std::size_t count>
 [[nodiscard]] std::vector<std::string> word_names(const std::array<Word<Value>, count>& words) {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "renderer/core/names.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/scene/environment.hpp"
 #include "renderer/visibility/cast_shadows.hpp"
@@ -15,36 +17,11 @@
 namespace footprint {
 namespace {
 
-constexpr auto names = std::to_array<std::string_view>({"diffuse",
-                                                        "fresnel",
-                                                        "masking_shadowing",
-                                                        "normal_variation",
-                                                        "normal_layers",
-                                                        "roughness_variation",
-                                                        "multi_lobe",
-                                                        "anisotropic_lobe",
-                                                        "base_color_variation",
-                                                        "vertex_color",
-                                                        "metallic_variation",
-                                                        "specular_variation",
-                                                        "clear_coat",
-                                                        "coat_weight_variation",
-                                                        "coat_width_variation",
-                                                        "coat_normal_variation",
-                                                        "material_index",
-                                                        "alpha_mask",
-                                                        "double_sided",
-                                                        "unlit",
-                                                        "point_light",
-                                                        "spot_light",
-                                                        "directional_light",
-                                                        "area_light",
-                                                        "cast_shadow",
-                                                        "environment_light",
-                                                        "microgeometry_visibility",
-                                                        "microgeometry_colour",
-                                                        "tabulated_brdf"});
-static_assert(names.size() == effect_count);
+template <std::size_t... numbers>
+constexpr auto names_of(std::index_sequence<numbers...> /*all*/) {
+  return std::array{enumerator_name<static_cast<Effect>(numbers)>()...};
+}
+constexpr auto names = names_of(std::make_index_sequence<effect_count>());
 
 // Smaller than a step of an 8-bit map, and larger than rounding in 32 bits.
 constexpr float constant_tolerance = 1e-5F;

@@ -48,11 +48,11 @@ Reflected sum_over_normals(double c, double alpha, double base) {
 }
 
 // Both parts of a texel together; a part's mean direction has the length of its vMF lobe's mean cosine.
-Reflected sum_of_parts(const LobeTable& table, std::size_t geometry, int x, int y) {
+Reflected sum_of_parts(const std::vector<Image>& table, std::size_t geometry, int x, int y) {
   Reflected sum;
-  const double c = lobe_view(x, table.layers[0].width), alpha = lobe_width(y, table.layers[0].height);
+  const double c = lobe_view(x, table[0].width), alpha = lobe_width(y, table[0].height);
   for (std::size_t part = 0; part < 2; ++part) {
-    const auto texel = table.layers[2 * geometry + part].at(x, y);
+    const auto texel = table[2 * geometry + part].at(x, y);
     const double kappa = std::exp2(texel[3]) / (alpha * alpha);
     const double energy = static_cast<double>(texel[0]) + texel[1];
     const double angle = texel[2] - std::acos(c);
@@ -64,8 +64,8 @@ Reflected sum_of_parts(const LobeTable& table, std::size_t geometry, int x, int 
 }
 
 TEST(LobeTable, HasWhatTheSumOverNormalsSays) {
-  const LobeTable table = make_lobe_table();
-  const int columns = table.layers[0].width, rows = table.layers[0].height;
+  const std::vector<Image> table = make_lobe_table();
+  const int columns = table[0].width, rows = table[0].height;
   for (const int geometry : {0, 2, smith_steps, no_geometry}) {
     for (const int x : {columns / 2 + 4, columns / 2 + 10, columns - 12, columns - 1}) {
       for (const int y : {6, 15, 23, rows - 1}) {

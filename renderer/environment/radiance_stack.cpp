@@ -153,8 +153,6 @@ double finest_sharpness(int size) {
   return 1.0 / (texels_a_deviation * texels_a_deviation * texel);
 }
 
-using std::numbers::pi;
-
 constexpr int columns = 64, rows = 32;
 constexpr int rings = 24, sectors = 24;        // of each part, of one half of the cap: the other is its mirror image
 constexpr double narrowest_alpha = 1e-3;       // smallest_alpha of common_lobes.glsl
@@ -283,9 +281,8 @@ glm::dvec3 visible_normal(const glm::dvec3& stretched, double alpha, double u, d
   return glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-9)));
 }
 
-LobeTable make_lobe_table() {
-  LobeTable table;
-  for (std::size_t layer = 0; layer < 2 * geometries; ++layer) table.layers.emplace_back(columns, rows, 4);
+std::vector<Image> make_lobe_table() {
+  std::vector<Image> layers(2 * geometries, Image(columns, rows, 4));
   tbb::parallel_for(0, rows, [&](int y) {
     for (int x = 0; x < columns; ++x) {
       const View view(lobe_view(x, columns), lobe_width(y, rows));
@@ -294,11 +291,11 @@ LobeTable make_lobe_table() {
         const std::array<Sum, geometries> sums = sums_of(view, part);
         for (std::size_t g = 0; g < sums.size(); ++g)
           std::ranges::copy(texel_of(sums[g], view, scale),
-                            table.layers[2 * g + static_cast<std::size_t>(part)].at(x, y).begin());
+                            layers[2 * g + static_cast<std::size_t>(part)].at(x, y).begin());
       }
     }
   });
-  return table;
+  return layers;
 }
 
 glm::dvec2 octahedral_uv(const glm::dvec3& direction) {

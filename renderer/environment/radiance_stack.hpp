@@ -33,15 +33,6 @@ struct RadianceStack {
 /// Smith's for alphas in even steps from 0 to the lobe's own, Tan's, and none.
 inline constexpr int smith_steps = 4, tan_geometry = smith_steps + 1, no_geometry = smith_steps + 2;
 
-/// Layers of one array texture, RGBA, 32-bit floats. Layer 2 g + p is part p of geometry g: part 0 the half of a lobe's
-/// visible normals nearest to its axis, part 1 its tail. Columns are views, rows widths, at the values of `lobe_view`
-/// and `lobe_width`. Red and green: energies of the terms 1 - x and x of Schlick's f0 (1 - x) + x. Blue: the angle from
-/// the mirror direction of the view about the axis to the mean direction, towards the view. Alpha: log2(kappa alpha^2),
-/// kappa of the vMF lobe with the same mean direction and spread.
-struct LobeTable {
-  std::vector<Image> layers;
-};
-
 /// Cosine of the angle between view and axis, -1 to 1, of column `x`; columns are denser at grazing views.
 [[nodiscard]] double lobe_view(int x, int columns);
 /// GGX's alpha at row `y` of `rows`, 0.001 to 1: even steps of its square root.
@@ -56,8 +47,13 @@ struct LobeTable {
 /// A visible normal of GGX for u and azimuth on the cap about the view, stretched to alpha 1 (Dupuy and Benyoub 2023).
 [[nodiscard]] glm::dvec3 visible_normal(const glm::dvec3& stretched, double alpha, double u, double azimuth);
 
-/// The table. Equal at any number of threads; takes about 50 ms of one core.
-[[nodiscard]] LobeTable make_lobe_table();
+/// Layers of one array texture, RGBA, 32-bit floats. Layer 2 g + p is part p of geometry g: part 0 the half of a lobe's
+/// visible normals nearest to its axis, part 1 its tail. Columns are views, rows widths, at the values of `lobe_view`
+/// and `lobe_width`. Red and green: energies of the terms 1 - x and x of Schlick's f0 (1 - x) + x. Blue: the angle from
+/// the mirror direction of the view about the axis to the mean direction, towards the view. Alpha: log2(kappa alpha^2),
+/// kappa of the vMF lobe with the same mean direction and spread. Equal at any number of threads; takes about 50 ms of
+/// one core.
+[[nodiscard]] std::vector<Image> make_lobe_table();
 
 /// The position of a direction, of any length but 0, on the unit square.
 [[nodiscard]] glm::dvec2 octahedral_uv(const glm::dvec3& direction);

@@ -3,8 +3,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -43,19 +43,18 @@ double beckmann_lambda(double alpha, double cosine) {
   return a < 1.6 ? (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 * a + 2.181 * a * a) : 0.0;
 }
 
-double geometry_factor(TabulatedGeometry geometry, double alpha, const glm::dvec3& h, const glm::dvec3& wi,
+double geometry_factor(const ReflectedLobeKind& kind, double alpha, const glm::dvec3& h, const glm::dvec3& wi,
                        const glm::dvec3& wo) {
   const double nl = wi.z, nv = std::max(wo.z, 1e-4);
-  switch (geometry) {
-    case TabulatedGeometry::none:
+  switch (kind.geometry) {
+    case GeometryTerm::none:
       return 1.0;
-    case TabulatedGeometry::tan:
+    case GeometryTerm::tan:
       return tan_factor(h.z, glm::dot(wo, h), wo.z);
-    case TabulatedGeometry::smith_ggx:
-      return smith_factor(alpha * alpha, nl, wo.z);
-    case TabulatedGeometry::smith_beckmann:
+    case GeometryTerm::smith:
+      if (kind.masked_as_ggx) return smith_factor(alpha * alpha, nl, wo.z);
       return 0.25 / ((1.0 + beckmann_lambda(alpha, nv) + beckmann_lambda(alpha, nl)) * nv);
-    case TabulatedGeometry::ward:
+    case GeometryTerm::ward:
       return nl / std::max(glm::dot(wi + wo, wi + wo), 1e-8);
   }
   return 1.0;
@@ -82,46 +81,31 @@ struct MirroredView {
   [[nodiscard]] double density(const glm::dvec3& h) const { return ggx(alpha * alpha, h.z) / (4.0 * area); }
 };
 
-// What a lobe reflects of each of `count` directions drawn from `views`, which mirror a view in normals of GGX.
-class Draws {
- public:
-  Draws(const ReflectedLobeKind& kind, double angle, double alpha, std::vector<double> widths)
-      : kind_(kind), alpha_(alpha), lobe_(lobe_from_alpha(kind.distribution, static_cast<float>(alpha))) {
-    for (const double width : widths) views_.emplace_back(angle, width);
-  }
-
-  [[nodiscard]] std::vector<Drawn> all(int ring_count, int sector_count) const {
-    std::vector<Drawn> drawn;
-    for (const MirroredView& view : views_) {
-      for (int i = 0; i < ring_count * sector_count; ++i) {
-        const double u = (i / sector_count + 0.5) / ring_count, azimuth = pi * (i % sector_count + 0.5) / sector_count;
-        add(visible_normal(view.stretched, view.alpha, u, azimuth), ring_count * sector_count, drawn);
-      }
+// What a lobe reflects of `across` x `around` directions drawn from each of `views`, which mirror a view in normals of
+// GGX.
+std::vector<Drawn> draws(const ReflectedLobeKind& kind, double alpha, const std::vector<MirroredView>& views,
+                         int across, int around) {
+  const Lobe lobe = lobe_from_alpha(kind.distribution, static_cast<float>(alpha));
+  const glm::dvec3 wo = views.front().wo;
+  std::vector<Drawn> drawn;
+  for (const MirroredView& view : views) {
+    for (int i = 0; i < across * around; ++i) {
+      const glm::dvec3 h =
+          visible_normal(view.stretched, view.alpha, (i / around + 0.5) / across, pi * (i % around + 0.5) / around);
+      const double oh = glm::dot(h, wo);
+      const glm::dvec3 wi = 2.0 * oh * h - wo;
+      if (oh <= 0.0 || wi.z <= 0.0) continue;
+      double density = 0.0;
+      for (const MirroredView& each : views) density += each.density(h);
+      const double u = 0.5 * (h.x * h.x + h.y * h.y + (1.0 - h.z) * (1.0 - h.z));
+      drawn.push_back({.wi = wi,
+                       .value = lobe_density(lobe, u) / projected_area(lobe) * geometry_factor(kind, alpha, h, wi, wo),
+                       .weight = 1.0 / (across * around * density),
+                       .schlick = std::pow(1.0 - std::clamp(oh, 0.0, 1.0), 5.0)});
     }
-    return drawn;
   }
-
- private:
-  void add(const glm::dvec3& h, int count, std::vector<Drawn>& drawn) const {
-    const glm::dvec3 wo = views_.front().wo;
-    const double oh = glm::dot(h, wo);
-    const glm::dvec3 wi = 2.0 * oh * h - wo;
-    if (oh <= 0.0 || wi.z <= 0.0) return;
-    double density = 0.0;
-    for (const MirroredView& view : views_) density += view.density(h);
-    const double u = 0.5 * (h.x * h.x + h.y * h.y + (1.0 - h.z) * (1.0 - h.z));
-    drawn.push_back(
-        {.wi = wi,
-         .value = lobe_density(lobe_, u) / projected_area(lobe_) * geometry_factor(kind_.geometry, alpha_, h, wi, wo),
-         .weight = 1.0 / (count * density),
-         .schlick = std::pow(1.0 - std::clamp(oh, 0.0, 1.0), 5.0)});
-  }
-
-  ReflectedLobeKind kind_;
-  double alpha_;
-  Lobe lobe_;
-  std::vector<MirroredView> views_;
-};
+  return drawn;
+}
 
 // A matrix with what its density needs.
 class Density {
@@ -149,32 +133,26 @@ class Density {
   double along_, across_, shear_, sine_, cosine_, scale_;
 };
 
-// Both terms of a lobe.
-class WholeDensity {
- public:
-  explicit WholeDensity(const TransformedCosine& cosine)
-      : first_(cosine, 1.0), wider_(cosine, wider_cosine), excess_(cosine.excess) {}
+// The density of both terms of a lobe.
+auto whole_density(const TransformedCosine& cosine) {
+  return [first = Density(cosine, 1.0), wider = Density(cosine, wider_cosine),
+          excess = cosine.excess](const glm::dvec3& w) {
+    const double value = first(w);
+    return excess == 0.0 ? value : value + excess * (value - wider(w));
+  };
+}
 
-  [[nodiscard]] double operator()(const glm::dvec3& w) const {
-    const double first = first_(w);
-    return excess_ == 0.0 ? first : first + excess_ * (first - wider_(w));
-  }
-
- private:
-  Density first_, wider_;
-  double excess_;
-};
-
-using Parameters = std::array<double, 5>;  // along, across, shear, turn from the mean direction, excess
+using Parameters = Eigen::Array<double, 5, 1>;  // along, across, shear, turn from the mean direction, excess
 
 class FitError {
  public:
   FitError(const ReflectedLobeKind& kind, double view_angle, double alpha) : alpha_(alpha) {
-    for (const Drawn& d : Draws(kind, view_angle, alpha, {alpha}).all(energy_rings, energy_sectors)) {
+    const MirroredView own(view_angle, alpha);
+    for (const Drawn& d : draws(kind, alpha, {own}, energy_rings, energy_sectors)) {
       fit_.energy += d.value * d.weight;
       fit_.schlick += d.value * d.weight * d.schlick;
     }
-    drawn_ = Draws(kind, view_angle, alpha, {alpha, wide * alpha}).all(fit_rings, fit_sectors);
+    drawn_ = draws(kind, alpha, {own, MirroredView(view_angle, wide * alpha)}, fit_rings, fit_sectors);
     glm::dvec2 mean(0.0);
     for (const Drawn& d : drawn_) {
       sum_ += d.value * d.weight;
@@ -184,7 +162,7 @@ class FitError {
   }
 
   [[nodiscard]] double operator()(const Parameters& p) const {
-    const WholeDensity density(with(p));
+    const auto density = whole_density(with(p));
     double sum = p[4] < 0.0 ? p[4] * p[4] * drawn_.front().value : 0.0;  // no negative excess
     sum += stiffness * p[3] * p[3] / (alpha_ * alpha_) * sum_;
     for (const Drawn& d : drawn_) {
@@ -218,25 +196,21 @@ struct SimplexVertex {
   double error;
 };
 
-Parameters between(const Parameters& a, const Parameters& b, double t) {
-  Parameters out;
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] + t * (b[i] - a[i]);
-  return out;
-}
+Parameters between(const Parameters& a, const Parameters& b, double t) { return a + t * (b - a); }
 
 // Over the first `count` parameters.
 Parameters least(const FitError& error, const Parameters& start, std::size_t count) {
   std::vector<SimplexVertex> simplex(count + 1);
   for (std::size_t i = 0; i < simplex.size(); ++i) {
     simplex[i].at = start;
-    if (i > 0) simplex[i].at.at(i - 1) += i == 5 ? 1.0 : 0.1;
+    if (i > 0) simplex[i].at[static_cast<Eigen::Index>(i) - 1] += i == 5 ? 1.0 : 0.1;
     simplex[i].error = error(simplex[i].at);
   }
   SimplexVertex& worst = simplex.back();
   for (int step = 0; step < most_steps; ++step) {
     std::ranges::sort(simplex, {}, &SimplexVertex::error);
     if (worst.error - simplex.front().error < 1e-7 * simplex.front().error) break;
-    Parameters middle{};
+    Parameters middle = Parameters::Zero();
     for (std::size_t i = 0; i < count; ++i) middle = between(middle, simplex[i].at, 1.0 / static_cast<double>(i + 1));
     const auto tried = [&](double t) {
       const Parameters at = between(middle, worst.at, t);
@@ -267,7 +241,7 @@ Parameters parameters_of(const TransformedCosine& c, double alpha) {
 }  // namespace
 
 double transformed_density(const TransformedCosine& cosine, const glm::dvec3& w) {
-  return w.z > 0.0 ? WholeDensity(cosine)(w) : 0.0;
+  return w.z > 0.0 ? whole_density(cosine)(w) : 0.0;
 }
 
 TransformedCosine fit_transformed_cosine(const ReflectedLobeKind& kind, double view_angle, double alpha,
@@ -284,9 +258,8 @@ double cosine_alpha(int y, int count) {
   return smallest_alpha * std::pow(1.0 / smallest_alpha, static_cast<double>(y) / (count - 1));
 }
 
-CosineTable make_cosine_table(const ReflectedLobeKind& kind) {
-  CosineTable table;
-  for (int layer = 0; layer < 2; ++layer) table.layers.emplace_back(view_columns, width_rows, 4);
+std::vector<Image> make_cosine_table(const ReflectedLobeKind& kind) {
+  std::vector<Image> layers(2, Image(view_columns, width_rows, 4));
   tbb::parallel_for(0, width_rows, [&](int y) {
     const double alpha = cosine_alpha(y, width_rows);
     TransformedCosine fit{.along = 2.0 * alpha, .across = 2.0 * alpha};
@@ -294,16 +267,16 @@ CosineTable make_cosine_table(const ReflectedLobeKind& kind) {
       const double angle = cosine_angle(x, view_columns);
       fit = fit_transformed_cosine(kind, angle, alpha, fit);
       const Parameters shape = parameters_of(fit, alpha);
-      const auto texel = table.layers[0].at(x, y);
+      const auto texel = layers[0].at(x, y);
       texel[0] = static_cast<float>(fit.angle - angle);
-      for (std::size_t i = 0; i < 3; ++i) texel[i + 1] = static_cast<float>(shape.at(i));
-      const auto energies = table.layers[1].at(x, y);
+      for (int i = 0; i < 3; ++i) texel[static_cast<std::size_t>(i) + 1] = static_cast<float>(shape[i]);
+      const auto energies = layers[1].at(x, y);
       energies[0] = static_cast<float>(fit.energy);
       energies[1] = static_cast<float>(fit.schlick);
       energies[2] = static_cast<float>(fit.excess);
     }
   });
-  return table;
+  return layers;
 }
 
 }  // namespace footprint

@@ -1,24 +1,23 @@
 // Reflected lobes as linearly transformed cosines (Heitz et al. 2016), for area lights.
 #pragma once
 
+#include <compare>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "renderer/image/image.hpp"
-#include "renderer/lobes/lobe.hpp"
+#include "renderer/scene/material.hpp"
 
 namespace footprint {
-
-/// The geometry factors of f * cos (docs/explanation/base-brdf.md) that a table may include.
-enum class TabulatedGeometry { none, tan, smith_ggx, smith_beckmann, ward };
 
 /// The reflected lobe that a table is about: density of facet normals times geometry factor, above the facets' own
 /// plane.
 struct ReflectedLobeKind {
   NormalDistribution distribution = NormalDistribution::ggx;
-  TabulatedGeometry geometry = TabulatedGeometry::smith_ggx;
+  GeometryTerm geometry = GeometryTerm::smith;
+  bool masked_as_ggx = true;  ///< Smith's term, otherwise that of Gaussian slopes
 
-  friend bool operator==(const ReflectedLobeKind&, const ReflectedLobeKind&) = default;
+  friend auto operator<=>(const ReflectedLobeKind&, const ReflectedLobeKind&) = default;
 };
 
 /// `along` and `across` of the wider lobe, over those of the first.
@@ -47,19 +46,14 @@ struct TransformedCosine {
 [[nodiscard]] TransformedCosine fit_transformed_cosine(const ReflectedLobeKind& kind, double view_angle, double alpha,
                                                        const TransformedCosine& start);
 
-/// Two layers of an array texture, RGBA, 32-bit floats: columns are view angles, rows widths, at the values of
-/// `cosine_angle` and `cosine_alpha`. Layer 0: angle less the view's in radians, log(along / alpha), log(across /
-/// alpha), shear / alpha. Layer 1: energy, schlick and excess.
-struct CosineTable {
-  std::vector<Image> layers;
-};
-
 /// The angle of column `x`: even steps from 0 to 2 pi / 3.
 [[nodiscard]] double cosine_angle(int x, int columns);
 /// The alpha of row `y`: even steps of its logarithm from smallest_alpha to 1.
 [[nodiscard]] double cosine_alpha(int y, int rows);
 
-/// The fits of all views and widths. Equal at any number of threads.
-[[nodiscard]] CosineTable make_cosine_table(const ReflectedLobeKind& kind);
+/// The fits of all views and widths: two layers of an array texture, RGBA, 32-bit floats. Columns are view angles, rows
+/// widths, at the values of `cosine_angle` and `cosine_alpha`. Layer 0: angle less the view's in radians, log(along /
+/// alpha), log(across / alpha), shear / alpha. Layer 1: energy, schlick and excess. Equal at any number of threads.
+[[nodiscard]] std::vector<Image> make_cosine_table(const ReflectedLobeKind& kind);
 
 }  // namespace footprint

@@ -14,10 +14,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr ReflectedLobeKind ggx_smith{NormalDistribution::ggx, TabulatedGeometry::smith_ggx};
-constexpr ReflectedLobeKind beckmann_smith{NormalDistribution::beckmann, TabulatedGeometry::smith_beckmann};
-constexpr ReflectedLobeKind ward{NormalDistribution::beckmann, TabulatedGeometry::ward};
-constexpr ReflectedLobeKind phong_bare{NormalDistribution::blinn_phong, TabulatedGeometry::none};
+constexpr ReflectedLobeKind ggx_smith{NormalDistribution::ggx, GeometryTerm::smith, true};
+constexpr ReflectedLobeKind beckmann_smith{NormalDistribution::beckmann, GeometryTerm::smith, false};
+constexpr ReflectedLobeKind ward{NormalDistribution::beckmann, GeometryTerm::ward, false};
+constexpr ReflectedLobeKind phong_bare{NormalDistribution::blinn_phong, GeometryTerm::none, false};
 
 // G2 / (4 n.v) (Heitz 2014, equations 72 and 99), with the exact Lambda of each distribution.
 double smith(NormalDistribution distribution, double alpha, double nl, double nv) {
@@ -134,9 +134,9 @@ TEST(TransformedCosines, DifferFromTheLobeByTheStatedErrors) {
 }
 
 TEST(TransformedCosines, TableHasTheFits) {
-  const CosineTable table = make_cosine_table(ggx_smith);
-  ASSERT_EQ(table.layers.size(), 2U);
-  const int columns = table.layers[0].width, rows = table.layers[0].height;
+  const std::vector<Image> table = make_cosine_table(ggx_smith);
+  ASSERT_EQ(table.size(), 2U);
+  const int columns = table[0].width, rows = table[0].height;
   EXPECT_EQ(cosine_angle(0, columns), 0.0);
   EXPECT_NEAR(cosine_angle(columns - 1, columns), 2.0 * pi / 3.0, 1e-12);
   EXPECT_NEAR(cosine_alpha(0, rows), smallest_alpha, 1e-12);
@@ -144,7 +144,7 @@ TEST(TransformedCosines, TableHasTheFits) {
   for (const auto& [x, y] : {std::pair(5, 20), std::pair(20, 25)}) {
     const double angle = cosine_angle(x, columns), alpha = cosine_alpha(y, rows);
     const TransformedCosine cosine = fit(ggx_smith, angle, alpha);
-    const auto shape = table.layers[0].at(x, y), energies = table.layers[1].at(x, y);
+    const auto shape = table[0].at(x, y), energies = table[1].at(x, y);
     EXPECT_NEAR(angle + shape[0], cosine.angle, 1e-5);
     EXPECT_NEAR(alpha * std::exp(shape[1]), cosine.along, 0.01 * cosine.along);
     EXPECT_NEAR(alpha * std::exp(shape[2]), cosine.across, 0.01 * cosine.across);
@@ -152,7 +152,7 @@ TEST(TransformedCosines, TableHasTheFits) {
     EXPECT_NEAR(energies[0], cosine.energy, 1e-5);
     EXPECT_NEAR(energies[1], cosine.schlick, 1e-5);
   }
-  for (const Image& layer : table.layers)
+  for (const Image& layer : table)
     EXPECT_TRUE(std::ranges::all_of(layer.texels, [](float value) { return std::isfinite(value); }));
 }
 

@@ -181,8 +181,12 @@ class Program {
   [[nodiscard]] const std::map<std::string, Uniform, std::less<>>& uniforms() const { return uniforms_; }
   /// A uniform's location; -1 if it is not active, because compilers may remove it.
   [[nodiscard]] GLint uniform(std::string_view uniform_name) const;
+  /// The texts of a raster program.
+  [[nodiscard]] const std::string& vertex_source() const { return vertex_; }
+  [[nodiscard]] const std::string& fragment_source() const { return fragment_; }
 
  private:
+  std::string vertex_, fragment_;
   ProgramName handle_;
   std::map<std::string, Uniform, std::less<>> uniforms_;
 };

@@ -160,7 +160,9 @@ int smallest_line_in(std::string_view log) {
 }
 
 Program::Program(const std::string& name, std::string_view vertex_source, std::string_view fragment_source)
-    : handle_(link(name, {{GL_VERTEX_SHADER, vertex_source}, {GL_FRAGMENT_SHADER, fragment_source}})),
+    : vertex_(vertex_source),
+      fragment_(fragment_source),
+      handle_(link(name, {{GL_VERTEX_SHADER, vertex_source}, {GL_FRAGMENT_SHADER, fragment_source}})),
       uniforms_(active_uniforms(handle_.name())) {}
 
 Program::Program(const std::string& name, std::string_view compute_source)

@@ -1,5 +1,5 @@
-// Creates an instance, a device, one pipeline layout for all programs, and a graphics pipeline per program. Files are
-// JSON; device.txt has the driver's name of the chip.
+// Creates an instance, a device, one pipeline layout for all programs, and a graphics pipeline per program. Files have
+// checksums; device.txt has the driver's name of the chip.
 #include "renderer/gpu_cost/compiled_programs.hpp"
 
 #define VK_NO_PROTOTYPES
@@ -7,10 +7,11 @@
 
 #include <array>
 #include <chrono>
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <utility>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
 
@@ -18,8 +19,8 @@ namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
+constexpr std::string_view form = "footprint-gpu/1";  // of the files
 constexpr std::uint32_t most_textures = 32, most_blocks = 9, most_attributes = 16;
 
 Error vulkan_error(const std::string& place, const std::string& message) {
@@ -172,58 +173,32 @@ fs::path file_of(const fs::path& folder, std::size_t program, const char* extens
   return folder / fmt::format("{}.{}", program, extension);
 }
 
-void write_json(const fs::path& file, const Json& json) { write_file_atomically(file, std::string_view(json.dump())); }
-
-Json json_of(const SpirvProgram& program) {
-  Json targets = Json::array();
-  for (const ColorTarget& target : program.targets) targets.push_back({target.channels, target.bits});
-  return {{"vertex", program.vertex}, {"fragment", program.fragment}, {"targets", targets}};
+template <class Value>
+void write_value(const fs::path& file, const Value& value) {
+  write_file_atomically(file, write_checksummed(form, [&](ChecksummedWriter& out) { out(value); }));
 }
 
-SpirvProgram program_of(const Json& json) {
-  SpirvProgram program{.vertex = json.at("vertex"), .fragment = json.at("fragment"), .targets = {}};
-  for (const Json& target : json.at("targets"))
-    program.targets.push_back({.channels = target.at(0), .bits = target.at(1)});
-  return program;
+template <class Value>
+Value value_of(const fs::path& file) {
+  Value value;
+  if (const std::optional<ByteSource> bytes = ByteSource::of_file(file)) {
+    std::optional<ChecksummedReader> in = ChecksummedReader::open(*bytes, form);
+    if (in) (*in)(value);
+    if (in && in->finished()) return value;
+  }
+  throw Error(ErrorKind::machine, file.string(), "is missing or damaged", "run the command again");
 }
 
-Json json_of(const CompileOutcome& outcome) {
-  if (!outcome.stage) return {{"failure", outcome.failure}};
-  const auto& [statistics, code, seconds] = *outcome.stage;
-  return {{"statistics", statistics}, {"code", code}, {"seconds", seconds}};
-}
-
-CompileOutcome outcome_of(const Json& json) {
-  if (json.contains("failure")) return {.stage = {}, .failure = json.at("failure")};
-  return {
-      .stage =
-          CompiledStage{.statistics = json.at("statistics"), .code = json.at("code"), .seconds = json.at("seconds")},
-      .failure = {}};
-}
-
-CompileOutcome compiled(const VulkanCompiler& compiler, const SpirvProgram& program) {
+// What the driver's exceptions say, as an Error.
+auto translated(const auto& work) {
   try {
-    return {.stage = compiler.compile(program), .failure = {}};
-  } catch (const Error& error) {
-    return {.stage = {}, .failure = error.what()};
+    return work();
+  } catch (const vk::SystemError& error) {
+    throw vulkan_error("Vulkan", error.what());
   }
 }
 
-}  // namespace
-
-struct VulkanCompiler::Implementation : CompilingDevice {};
-
-VulkanCompiler::VulkanCompiler() try : implementation_(std::make_unique<Implementation>()) {
-} catch (const vk::SystemError& error) {
-  throw vulkan_error("Vulkan", error.what());
-}
-
-VulkanCompiler::~VulkanCompiler() = default;
-
-const std::string& VulkanCompiler::device() const { return implementation_->name; }
-
-CompiledStage VulkanCompiler::compile(const SpirvProgram& program) const try {
-  const CompilingDevice& on = *implementation_;
+CompiledStage compiled_on(const CompilingDevice& on, const SpirvProgram& program) {
   const auto begin = std::chrono::steady_clock::now();
   const vk::raii::Pipeline pipeline = pipeline_of(on, program);
   CompiledStage stage;
@@ -233,23 +208,37 @@ CompiledStage VulkanCompiler::compile(const SpirvProgram& program) const try {
     stage.statistics[one.name] = one.value.u64;
   stage.code = code_of(on, executable);
   return stage;
-} catch (const vk::SystemError& error) {
-  throw vulkan_error("Vulkan", error.what());
+}
+
+CompileOutcome outcome_of(const VulkanCompiler& compiler, const SpirvProgram& program) {
+  try {
+    return {.stage = compiler.compile(program), .failure = {}};
+  } catch (const Error& error) {
+    return {.stage = {}, .failure = error.what()};
+  }
+}
+
+}  // namespace
+
+VulkanCompiler vulkan_compiler() {
+  const auto on = translated([] { return std::make_shared<const CompilingDevice>(); });
+  return {.device = on->name, .compile = [on](const SpirvProgram& program) {
+            return translated([&] { return compiled_on(*on, program); });
+          }};
 }
 
 void write_programs(std::span<const SpirvProgram> programs, const fs::path& folder) {
-  for (std::size_t i = 0; i < programs.size(); ++i) write_json(file_of(folder, i, "program"), json_of(programs[i]));
+  for (std::size_t i = 0; i < programs.size(); ++i) write_value(file_of(folder, i, "program"), programs[i]);
 }
 
 void compile_programs(const fs::path& folder) {
-  const VulkanCompiler compiler;
-  write_file_atomically(folder / "device.txt", std::string_view(compiler.device()));
+  const VulkanCompiler compiler = vulkan_compiler();
+  write_file_atomically(folder / "device.txt", std::string_view(compiler.device));
   for (std::size_t i = 0; fs::exists(file_of(folder, i, "program")); ++i) {
     const fs::path outcome = file_of(folder, i, "outcome");
     if (fs::exists(outcome)) continue;
-    write_json(outcome, json_of({.stage = {}, .failure = "the driver's compiler was interrupted by a crash"}));
-    const SpirvProgram program = program_of(Json::parse(file_text(file_of(folder, i, "program"))));
-    write_json(outcome, json_of(compiled(compiler, program)));
+    write_value(outcome, CompileOutcome{.stage = {}, .failure = "the driver's compiler was interrupted by a crash"});
+    write_value(outcome, outcome_of(compiler, value_of<SpirvProgram>(file_of(folder, i, "program"))));
   }
 }
 
@@ -261,14 +250,8 @@ std::size_t compiled_count(const fs::path& folder) {
 
 ChipOutcomes read_outcomes(const fs::path& folder, std::size_t count) {
   ChipOutcomes outcomes{.device = file_text(folder / "device.txt"), .programs = {}};
-  for (std::size_t i = 0; i < count; ++i) {
-    const fs::path file = file_of(folder, i, "outcome");
-    try {
-      outcomes.programs.push_back(outcome_of(Json::parse(file_text(file))));
-    } catch (const Json::exception& error) {
-      throw Error(ErrorKind::machine, file.string(), error.what(), "run the command again");
-    }
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    outcomes.programs.push_back(value_of<CompileOutcome>(file_of(folder, i, "outcome")));
   return outcomes;
 }
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,27 +24,18 @@ struct CompiledStage {
   double seconds = 0;                               ///< that the driver compiled both stages
 };
 
-/// The first device of the Vulkan driver that the loader finds. Mesa's driver for AMD creates a device without hardware
-/// for the chip that the variable RADV_FORCE_FAMILY names; so a process has one chip. libvulkan is loaded at run time.
-/// Nothing but pipelines is requested, because such a device answers nothing else.
-class VulkanCompiler {
- public:
-  /// Throws Error (machine): libvulkan, a driver or a device is missing, with the package to install.
-  VulkanCompiler();
-  VulkanCompiler(const VulkanCompiler&) = delete;
-  VulkanCompiler& operator=(const VulkanCompiler&) = delete;
-  ~VulkanCompiler();
-
-  /// The driver's name of the device.
-  [[nodiscard]] const std::string& device() const;
-
+/// A driver's compiler.
+struct VulkanCompiler {
+  std::string device;  ///< the driver's name of it
   /// Throws Error (machine): the driver refuses the program, or does not describe its code.
-  [[nodiscard]] CompiledStage compile(const SpirvProgram& program) const;
-
- private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::function<CompiledStage(const SpirvProgram&)> compile;
 };
+
+/// Of the first device of the Vulkan driver that the loader finds. Mesa's driver for AMD creates a device without
+/// hardware for the chip that the variable RADV_FORCE_FAMILY names; so a process has one chip. libvulkan is loaded at
+/// run time. Nothing but pipelines is requested, because such a device answers nothing else.
+/// Throws Error (machine): libvulkan, a driver or a device is missing, with the package to install.
+[[nodiscard]] VulkanCompiler vulkan_compiler();
 
 /// A compiled program, or why the driver failed.
 struct CompileOutcome {
@@ -69,7 +59,7 @@ void write_programs(std::span<const SpirvProgram> programs, const std::filesyste
 
 /// Compiles the programs of `folder` that have no outcome there, in their order, and writes each outcome next to it.
 /// An outcome says "was interrupted" until its program is compiled, so that a crash leaves that.
-/// Throws Error (machine): as VulkanCompiler.
+/// Throws Error (machine): as vulkan_compiler.
 void compile_programs(const std::filesystem::path& folder);
 
 /// How many programs of `folder` have an outcome.

@@ -151,7 +151,7 @@ double alu_clocks(const Generation& generation, const Instructions& work) {
 }
 
 // Texels from memory per sample: the mean over the pixels if the map's finest level is read whatever the footprint.
-double new_texels(const TextureCost& texture, double line_bytes, std::span<const float> finest_areas) {
+double new_texels(const ReadTexture& texture, double line_bytes, std::span<const float> finest_areas) {
   if (texture.finest_texels == 0 || finest_areas.empty()) return new_texels_of_a_sample;
   double sum = 0;
   for (const float area : finest_areas) {
@@ -162,7 +162,7 @@ double new_texels(const TextureCost& texture, double line_bytes, std::span<const
 }
 
 // The lookups of shaders; a gather counts once for each of its reads.
-void add_texture(GpuCost& estimate, const Chip& chip, const TextureReads& reads, const TextureCost& texture,
+void add_texture(GpuCost& estimate, const Chip& chip, const TextureReads& reads, const ReadTexture& texture,
                  std::span<const float> finest_areas) {
   const double samples = std::max(reads.samples, 0.0), gathers = std::max(reads.gathers, 0.0);
   const double loads = std::max(reads.loads, 0.0);
@@ -290,7 +290,7 @@ Instructions frame_work(const std::vector<WeighedWork>& works, double lookups, d
 }
 
 GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                 const std::map<int, TextureCost>& textures, double written_bytes,
+                 const std::map<int, ReadTexture>& textures, double written_bytes,
                  std::span<const float> finest_areas) {
   GpuCost estimate;
   estimate.gpu = chip.name;
@@ -299,7 +299,7 @@ GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double
   estimate.arithmetic_ns = estimate.alu_clocks / (chip.compute_units * chip.generation->simds * chip.ghz);
   for (const auto& [binding, reads] : work.textures) {
     const auto found = textures.find(binding);
-    add_texture(estimate, chip, reads, found == textures.end() ? TextureCost{} : found->second, finest_areas);
+    add_texture(estimate, chip, reads, found == textures.end() ? ReadTexture{} : found->second, finest_areas);
   }
   estimate.bytes_from_memory += written_bytes;
   estimate.bandwidth_ns = estimate.bytes_from_memory / chip.gigabytes_per_second;

@@ -87,16 +87,6 @@ struct Chip {
 /// Throws Error (usage, at `place`): no chip has such a name; the message lists all, and the nearest.
 [[nodiscard]] std::vector<const Chip*> chips_named(std::string_view place, const std::vector<std::string>& names);
 
-/// What a texture costs to read.
-struct TextureCost {
-  std::string name;
-  int bits = 128;          ///< of a texel
-  bool trilinear = false;  ///< samples blend two mip levels
-  double bytes = 0;        ///< of all levels and layers
-  double finest_texels =
-      0;  ///< of the finest level, if samples read it whatever the footprint; 0: samples read levels that fit
-};
-
 /// A compiled program that counts `weight` times in a frame's work. The weights of one frame add up to 1: loops that
 /// run n times cost what one round costs, and n - 1 times what a further round adds.
 struct WeighedWork {
@@ -126,7 +116,7 @@ inline constexpr double frame_pixel_bytes = 8;
 /// written_bytes: of a pixel, in all targets.
 /// finest_areas: of each pixel on maps with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
 [[nodiscard]] GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
-                               const std::map<int, TextureCost>& textures, double written_bytes = frame_pixel_bytes,
+                               const std::map<int, ReadTexture>& textures, double written_bytes = frame_pixel_bytes,
                                std::span<const float> finest_areas = {});
 
 /// The time of a copy on a chip, which memory bounds: each byte is read and written once. Nanoseconds.

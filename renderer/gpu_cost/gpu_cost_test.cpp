@@ -40,7 +40,7 @@ std::string repeated(int times, const std::string& statement) {
 class Driver : public testing::Test {
  protected:
   static const VulkanCompiler& compiler() {
-    static const VulkanCompiler only;
+    static const VulkanCompiler only = vulkan_compiler();
     return only;
   }
 
@@ -168,7 +168,7 @@ ShaderWork work_with(double full, double samples) {
 
 // 8 units of 2 SIMDs at 1.6 GHz: an instruction of a wave takes 2 clocks of a SIMD, so 2 / 64 / 25.6 ns per pixel.
 TEST(Estimate, IsTheLargestBound) {
-  const std::map<int, TextureCost> textures{{0, {.name = "map", .bits = 32, .trilinear = true, .bytes = 1e6}}};
+  const std::map<int, ReadTexture> textures{{0, {.name = "map", .bits = 32, .trilinear = true, .bytes = 1e6}}};
   const GpuCost arithmetic = estimate(deck(), {{1, work_with(640, 1)}}, 1, textures);
   EXPECT_NEAR(arithmetic.arithmetic_ns, 640 * 2 / 64.0 / 25.6, 1e-12);
   EXPECT_EQ(arithmetic.bound, "arithmetic");
@@ -183,7 +183,7 @@ TEST(Estimate, IsTheLargestBound) {
 TEST(Estimate, OfAPassCountsWhatItWrites) {
   ShaderWork work;
   work.looped.textures[0].loads = 1;
-  const std::map<int, TextureCost> textures{{0, {.name = "map", .bits = 128, .trilinear = false, .bytes = 1e6}}};
+  const std::map<int, ReadTexture> textures{{0, {.name = "map", .bits = 128, .trilinear = false, .bytes = 1e6}}};
   const GpuCost pass = estimate(deck(), {{1, work}}, 4, textures, 16);
   EXPECT_EQ(pass.bytes_from_memory, 4 * 16 + 16);
   EXPECT_NEAR(pass.bandwidth_ns, 80 / 88.0, 1e-12);
@@ -246,7 +246,7 @@ TEST(Estimate, OfAMinifiedMapFetchesTheLinesThatItsSamplesTouch) {
 }
 
 TEST(Estimate, CountsLinesOnlyWhereTheFinestLevelIsMinified) {
-  const std::map<int, TextureCost> map{
+  const std::map<int, ReadTexture> map{
       {0, {.name = "map", .bits = 128, .trilinear = false, .bytes = 16e6, .finest_texels = 1e6}}};
   const auto bytes = [&](const std::vector<float>& areas) {
     return estimate(deck(), {{1, work_with(1, 1)}}, 1, map, 8, areas).bytes_from_memory - 8;
@@ -260,7 +260,7 @@ TEST(Estimate, CountsLinesOnlyWhereTheFinestLevelIsMinified) {
 }
 
 TEST(Estimate, ReadsOfSmallTablesCostNoMemory) {
-  const std::map<int, TextureCost> table{{0, {.name = "table", .bits = 128, .trilinear = false, .bytes = 4096}}};
+  const std::map<int, ReadTexture> table{{0, {.name = "table", .bits = 128, .trilinear = false, .bytes = 4096}}};
   EXPECT_EQ(estimate(deck(), {{1, work_with(1, 10)}}, 10, table).bytes_from_memory, 8);
 }
 

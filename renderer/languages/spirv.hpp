@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/gpu_cost.hpp"
+
 namespace footprint {
 
 /// The bindings of a program in Vulkan's one descriptor set: textures have their OpenGL units, from 0.
@@ -15,15 +17,6 @@ inline constexpr std::uint32_t plain_uniforms = 90;  ///< the block of all unifo
 
 /// Words of SPIR-V 1.3.
 using Spirv = std::vector<std::uint32_t>;
-
-/// The texels of one target that a program draws into: floats.
-struct ColorTarget {
-  int channels = 4;  ///< 1, 2 or 4
-  int bits = 16;     ///< of a channel: 16 or 32
-
-  friend auto operator<=>(const ColorTarget&,
-                          const ColorTarget&) = default;  // NOLINT(modernize-use-nullptr): no pointer
-};
 
 /// The stages of a raster program.
 struct SpirvProgram {

@@ -19,13 +19,8 @@ enum class ShaderLanguage {
   spirv,  ///< 1.3, for Vulkan: binary
 };
 
-inline constexpr std::array<Word<ShaderLanguage>, 5> shader_languages{{
-    {ShaderLanguage::glsl, "glsl"},
-    {ShaderLanguage::essl, "essl"},
-    {ShaderLanguage::hlsl, "hlsl"},
-    {ShaderLanguage::msl, "msl"},
-    {ShaderLanguage::spirv, "spirv"},
-}};
+inline constexpr auto shader_languages = own_words<ShaderLanguage::glsl, ShaderLanguage::essl, ShaderLanguage::hlsl,
+                                                   ShaderLanguage::msl, ShaderLanguage::spirv>;
 
 /// The extension of a file: "spv" for SPIR-V, else the language's name.
 [[nodiscard]] std::string file_extension(ShaderLanguage language);

@@ -24,8 +24,8 @@ constexpr float smallest_concentration = 1e-6F;
 constexpr float largest_exponent = 2e6F;
 constexpr float smallest_variance = 1e-12F;
 
-constexpr std::array<Word<NormalDistribution>, 4> distributions{
-    {{blinn_phong, "blinn_phong"}, {beckmann, "beckmann"}, {ggx, "ggx"}, {vmf, "vmf"}}};
+constexpr auto distributions = own_words<NormalDistribution::blinn_phong, NormalDistribution::beckmann,
+                                         NormalDistribution::ggx, NormalDistribution::vmf>;
 
 bool is_alpha(NormalDistribution distribution) { return distribution == beckmann || distribution == ggx; }
 

@@ -2,6 +2,7 @@
 #include "renderer/pipeline/base_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "renderer/bake/facets.hpp"
@@ -14,20 +15,18 @@ extern const EmbeddedTexts shared_glsl;
 
 namespace {
 
+const std::array<SharedMap, 3> finest_maps{
+    {{Effect::normal_variation, "base_normal", normal_map_of, normal_coordinates},
+     {Effect::normal_layers, "base_layer", layer_map_of, layer_coordinates},
+     {Effect::roughness_variation, "base_roughness", roughness_map_of, roughness_coordinates}}};
+
 Prefiltered precompute(const Material& material, const Options& /*options*/, const EffectSet& effects,
                        const Progress& progress) {
   Prefiltered out;
-  if (has(effects, Effect::normal_variation)) {
-    out.textures.push_back(
-        make_level_texture("base_normal", normal_map_of(material), Storage::fp32, normal_coordinates(material)));
-  }
-  if (has(effects, Effect::normal_layers)) {
-    out.textures.push_back(
-        make_level_texture("base_layer", layer_map_of(material), Storage::fp32, layer_coordinates(material)));
-  }
-  if (has(effects, Effect::roughness_variation)) {
-    out.textures.push_back(make_level_texture("base_roughness", roughness_map_of(material), Storage::fp32,
-                                              roughness_coordinates(material)));
+  for (const SharedMap& map : finest_maps) {
+    if (has(effects, map.effect))
+      out.textures.push_back(
+          make_level_texture(std::string(map.name), map.image(material), Storage::fp32, map.coordinates(material)));
   }
   if (has(effects, Effect::microgeometry_visibility)) {
     std::ranges::move(patch_facet_textures(material, progress), std::back_inserter(out.textures));

@@ -58,10 +58,6 @@ void FrameRenderer::draw(const View& view, const glm::dvec2& offset) const {
 
 Image FrameRenderer::render(const View& view, const glm::dvec2& offset) const { return render(view, tiles_, offset); }
 
-Image FrameRenderer::render(const View& view, std::span<const Tile> parts) const {
-  return render(view, parts, {0.0, 0.0});
-}
-
 Image FrameRenderer::render(const View& view, std::span<const Tile> parts, const glm::dvec2& offset) const {
   method_->build_frame(view);
   Image picture(view.size.x, view.size.y, 4);

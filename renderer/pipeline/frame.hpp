@@ -27,7 +27,8 @@ class FrameRenderer {
   [[nodiscard]] Image render(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 
   /// Only some rectangles of that image, each no larger than a tile; 0 elsewhere.
-  [[nodiscard]] Image render(const View& view, std::span<const Tile> parts) const;
+  [[nodiscard]] Image render(const View& view, std::span<const Tile> parts,
+                             const glm::dvec2& offset = {0.0, 0.0}) const;
 
   /// Draws `method` from now on: another bake of the same method with the same options.
   void exchange(const GpuMethod& method) { method_ = &method; }
@@ -36,7 +37,6 @@ class FrameRenderer {
 
  private:
   void draw_tile(const View& view, const Tile& tile, const glm::dvec2& offset) const;
-  [[nodiscard]] Image render(const View& view, std::span<const Tile> parts, const glm::dvec2& offset) const;
 
   GpuScene* scene_;
   const GpuMethod* method_;

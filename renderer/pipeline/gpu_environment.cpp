@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 #include <iterator>
-#include <memory>
+#include <map>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -43,38 +43,22 @@ SampledTexture plain_table(std::string name, Image texels) {
 constexpr std::size_t vectors_per_vertex = 5;
 
 // Fitted once per kind and process: every scene on the GPU needs it again.
-const CosineTable& table_of_kind(const ReflectedLobeKind& kind) {
+const std::vector<Image>& table_of_kind(const ReflectedLobeKind& kind) {
   static std::mutex guard;
-  static std::vector<std::pair<ReflectedLobeKind, std::unique_ptr<const CosineTable>>> tables;
+  static std::map<ReflectedLobeKind, std::vector<Image>> tables;
   const std::scoped_lock lock(guard);
-  for (const auto& [of, table] : tables) {
-    if (of == kind) return *table;
-  }
-  tables.emplace_back(kind, std::make_unique<const CosineTable>(make_cosine_table(kind)));
-  return *tables.back().second;
+  std::vector<Image>& table = tables[kind];
+  if (table.empty()) table = make_cosine_table(kind);
+  return table;
 }
 
 }  // namespace
 
-ReflectedLobeKind reflected_lobe_kind(const BaseBrdf& brdf, NormalDistribution distribution) {
-  switch (brdf.geometry) {
-    case GeometryTerm::none:
-      break;
-    case GeometryTerm::tan:
-      return {distribution, TabulatedGeometry::tan};
-    case GeometryTerm::ward:
-      return {distribution, TabulatedGeometry::ward};
-    case GeometryTerm::smith:
-      return {distribution, brdf.distribution == NormalDistribution::ggx ? TabulatedGeometry::smith_ggx
-                                                                         : TabulatedGeometry::smith_beckmann};
-  }
-  return {distribution, TabulatedGeometry::none};
-}
-
 SampledTexture area_cosines_of(const BaseBrdf& brdf) {
   std::vector<Image> layers;
   const auto add = [&](NormalDistribution distribution) {
-    std::ranges::copy(table_of_kind(reflected_lobe_kind(brdf, distribution)).layers, std::back_inserter(layers));
+    std::ranges::copy(table_of_kind({distribution, brdf.geometry, brdf.distribution == NormalDistribution::ggx}),
+                      std::back_inserter(layers));
   };
   add(brdf.distribution);
   if (brdf.distribution == NormalDistribution::ggx) add(NormalDistribution::beckmann);
@@ -102,7 +86,7 @@ GpuEnvironment::Part GpuEnvironment::stack_part() const {
       sampled(make_array_texture("environment_stack", std::move(stack.layers), Storage::fp32, {}), smooth()));
   part.textures.push_back(
       sampled(make_level_texture("environment_irradiance", std::move(stack.irradiance), Storage::fp32, {}), smooth()));
-  part.textures.push_back(blended_layers("environment_lobes", make_lobe_table().layers));
+  part.textures.push_back(blended_layers("environment_lobes", make_lobe_table()));
   return part;
 }
 

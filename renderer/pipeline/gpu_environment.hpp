@@ -29,13 +29,10 @@ struct SampledTexture {
   void bind(GLuint unit) const { gl::bind_texture(unit, texture, sampler.name()); }
 };
 
-/// The texture `area_cosines` of area_lobes.glsl: the layers of a CosineTable for lobes of the base BRDF and, if that
+/// The texture `area_cosines` of area_lobes.glsl: make_cosine_table for lobes of the base BRDF and, if that
 /// is GGX, those for lobes of Beckmann's distribution, because methods may have lobes without a tail. Fits the table,
 /// which takes about a second of one core. Throws Error (machine): out of memory.
 [[nodiscard]] SampledTexture area_cosines_of(const BaseBrdf& brdf);
-
-/// The kind of lobe with the geometry factor of a base BRDF.
-[[nodiscard]] ReflectedLobeKind reflected_lobe_kind(const BaseBrdf& brdf, NormalDistribution distribution);
 
 class TextureUnits;
 

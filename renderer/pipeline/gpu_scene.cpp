@@ -54,10 +54,6 @@ GlFormat gl_format(Storage storage, int channels) {
   return {internals.at(s).at(c), formats.at(c), types.at(s)};
 }
 
-glm::vec4 linear_part(const TextureCoordinates& c) { return {c.transform[0], c.transform[1]}; }
-
-glm::vec4 offset_and_set(const TextureCoordinates& c) { return {c.transform[2], static_cast<float>(c.set), 0.0F}; }
-
 // Whether other materials of its surface are drawn before it.
 bool adds_to_surface(const Material& material) { return material.share && !material.share->first; }
 
@@ -70,33 +66,27 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   std::vector<glm::vec4> block{material.base_color, glm::vec4(specular, metallic_map_of(material).texels.front()),
                                glm::vec4(lobe_of(material).parameter, material.alpha_cutoff.value_or(never_cut),
                                          material.unlit ? 1.0F : 0.0F, squared_strength(material))};
-  const std::array slots{normal_coordinates(material), roughness_coordinates(material),
-                         base_color_coordinates(material), layer_coordinates(material)};
-  for (const TextureCoordinates& slot : slots) block.push_back(linear_part(slot));
-  const bool anisotropic = has(effects, Effect::anisotropic_lobe);
-  const glm::vec4 anisotropy = anisotropic ? anisotropy_of(material) : glm::vec4(0.0F);
-  for (int i = 0; i < 4; ++i) {
-    block.push_back(offset_and_set(slots.at(static_cast<std::size_t>(i))));
-    block.back().w = anisotropy[i];
+  const auto add_coordinates = [&](const std::vector<TextureCoordinates>& maps) {
+    for (const TextureCoordinates& map : maps) block.emplace_back(map.transform[0], map.transform[1]);
+    for (const TextureCoordinates& map : maps) block.emplace_back(map.transform[2], static_cast<float>(map.set), 0.0F);
+  };
+  add_coordinates({normal_coordinates(material), roughness_coordinates(material), base_color_coordinates(material),
+                   layer_coordinates(material)});
+  if (has(effects, Effect::anisotropic_lobe)) {
+    for (std::size_t i = 0; i < 4; ++i) block[block.size() - 4 + i].w = anisotropy_of(material)[static_cast<int>(i)];
   }
-  if (specular_varies) {
-    block.push_back(linear_part(specular_coordinates(material)));
-    block.push_back(offset_and_set(specular_coordinates(material)));
-  }
+  if (specular_varies) add_coordinates({specular_coordinates(material)});
   if (has(effects, Effect::clear_coat)) {
     // If a map varies, shaders read it instead of the constant, so it need not be decoded here.
     const bool weight_varies = has(effects, Effect::coat_weight_variation);
     const bool width_varies = has(effects, Effect::coat_width_variation);
     block.emplace_back(weight_varies ? 0.0F : coat_weight_map_of(material).texels.front(),
                        width_varies ? 0.0F : coat_width_map_of(material).texels.front(), 0.0F, 0.0F);
-    const std::array maps{coat_weight_coordinates(material), coat_width_coordinates(material),
-                          coat_normal_coordinates(material)};
-    for (const TextureCoordinates& map : maps) block.push_back(linear_part(map));
-    for (const TextureCoordinates& map : maps) block.push_back(offset_and_set(map));
+    add_coordinates(
+        {coat_weight_coordinates(material), coat_width_coordinates(material), coat_normal_coordinates(material)});
   }
   if (has(effects, Effect::material_index)) {
-    block.push_back(linear_part(share_coordinates(material)));
-    block.push_back(offset_and_set(share_coordinates(material)));
+    add_coordinates({share_coordinates(material)});
     block.back().w = adds_to_surface(material) ? 0.0F : 1.0F;
   }
   if (has(effects, Effect::multi_lobe)) {
@@ -106,15 +96,13 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
   return block;
 }
 
+// Slot 0 is used for every map: without a normal map it has the default coordinates.
 bool maps_share_coordinates(const Material& m) {
-  std::vector<TextureCoordinates> used;
-  if (m.normal_map) used.push_back(m.normal_map->coordinates);
-  if (m.metallic_roughness_map || m.lobe_parameter_map) used.push_back(roughness_coordinates(m));
-  if (m.base_color_map) used.push_back(m.base_color_map->coordinates);
-  if (m.specular_map) used.push_back(m.specular_map->coordinates);
-  // Slot 0 is used for every map: without a normal map it has the default coordinates.
-  const TextureCoordinates first = normal_coordinates(m);
-  return std::ranges::all_of(used, [&](const TextureCoordinates& c) { return same_uv(c, first); });
+  const auto shared = [first = normal_coordinates(m)](const TextureCoordinates& own) { return same_uv(own, first); };
+  const bool reads_roughness = m.metallic_roughness_map || m.lobe_parameter_map;
+  return (!reads_roughness || shared(roughness_coordinates(m))) &&
+         (!m.base_color_map || shared(m.base_color_map->coordinates)) &&
+         (!m.specular_map || shared(m.specular_map->coordinates));
 }
 
 // A block without lights stores one dark light, because the shader's array has at least one element.

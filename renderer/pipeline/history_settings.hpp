@@ -1,8 +1,6 @@
 // How frames are accumulated over time (docs/explanation/temporal.md).
 #pragma once
 
-#include <array>
-
 #include "renderer/core/names.hpp"
 
 namespace footprint {
@@ -14,11 +12,7 @@ enum class HistoryClamp {
   variance  ///< their range, and one deviation from their mean
 };
 
-inline constexpr std::array<Word<HistoryClamp>, 3> history_clamps{{
-    {HistoryClamp::off, "off"},
-    {HistoryClamp::box, "box"},
-    {HistoryClamp::variance, "variance"},
-}};
+inline constexpr auto history_clamps = own_words<HistoryClamp::off, HistoryClamp::box, HistoryClamp::variance>;
 constexpr const auto& words_of(HistoryClamp /*clamp*/) { return history_clamps; }
 
 struct HistorySettings {

@@ -203,7 +203,8 @@ struct ViewAppender {
   const Scene& scene;
   std::vector<ShadowView>& views;
 
-  void operator()(const PointLight& light) const {
+  // A point, or the centre of an area, whose penumbra is left out.
+  void operator()(const auto& light) const {
     append_point(light.position, {}, std::numeric_limits<double>::infinity(), scene, views);
   }
   void operator()(const SpotLight& light) const {
@@ -212,10 +213,6 @@ struct ViewAppender {
     append_point(light.point.position, glm::normalize(glm::dvec3(light.direction)), cone, scene, views);
   }
   void operator()(const DirectionalLight& light) const { views.push_back(parallel_view(light, scene)); }
-  // From the centre: the penumbra is left out.
-  void operator()(const AreaLight& light) const {
-    append_point(light.position, {}, std::numeric_limits<double>::infinity(), scene, views);
-  }
 };
 
 }  // namespace

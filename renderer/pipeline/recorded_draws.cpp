@@ -1,4 +1,4 @@
-// Everything is queried from OpenGL: the texts of the program, its textures, the targets, and the number of pixels.
+// OpenGL is queried: the textures of the program, the targets, and the number of pixels.
 #include "renderer/pipeline/recorded_draws.hpp"
 
 #include <array>
@@ -15,31 +15,10 @@ GLint texture_parameter(GLuint texture, GLint level, GLenum name) {
   return value;
 }
 
-TexelFormat format_of(GLuint texture) {
-  TexelFormat format{.channels = 0, .bits = texture_parameter(texture, 0, GL_TEXTURE_RED_SIZE)};
+ColorTarget format_of(GLuint texture) {
+  ColorTarget format{.channels = 0, .bits = texture_parameter(texture, 0, GL_TEXTURE_RED_SIZE)};
   for (const GLenum channel : channel_sizes) format.channels += texture_parameter(texture, 0, channel) > 0 ? 1 : 0;
   return format;
-}
-
-std::string source_of(GLuint shader) {
-  GLint length = 0;
-  gl::api().GetShaderiv(shader, GL_SHADER_SOURCE_LENGTH, &length);
-  std::string text(static_cast<std::size_t>(length), '\0');
-  gl::api().GetShaderSource(shader, length, nullptr, text.data());
-  if (!text.empty()) text.pop_back();  // the final zero
-  return text;
-}
-
-void set_texts(RecordedDraw& draw, GLuint program) {
-  std::array<GLuint, 2> shaders{};
-  GLsizei count = 0;
-  gl::api().GetAttachedShaders(program, static_cast<GLsizei>(shaders.size()), &count, shaders.data());
-  for (GLsizei i = 0; i < count; ++i) {
-    const GLuint shader = shaders.at(static_cast<std::size_t>(i));
-    GLint type = 0;
-    gl::api().GetShaderiv(shader, GL_SHADER_TYPE, &type);
-    (type == GL_VERTEX_SHADER ? draw.vertex : draw.fragment) = source_of(shader);
-  }
 }
 
 void set_textures(RecordedDraw& draw, const gl::Program& program) {
@@ -70,13 +49,13 @@ void set_targets(RecordedDraw& draw) {
 
 }  // namespace
 
-BoundTexture bound_texture(const std::string& name, GLuint unit, bool is_array) {
+ReadTexture bound_texture(const std::string& name, GLuint unit, bool is_array) {
   gl::api().ActiveTexture(GL_TEXTURE0 + unit);
   GLint texture = 0, sampler = 0, filter = 0;
   gl::api().GetIntegerv(is_array ? GL_TEXTURE_BINDING_2D_ARRAY : GL_TEXTURE_BINDING_2D, &texture);
   gl::api().GetIntegerv(GL_SAMPLER_BINDING, &sampler);
   if (sampler != 0) gl::api().GetSamplerParameteriv(static_cast<GLuint>(sampler), GL_TEXTURE_MIN_FILTER, &filter);
-  BoundTexture bound{.name = name};
+  ReadTexture bound{.name = name, .bits = 0};
   const auto id = static_cast<GLuint>(texture);
   for (const GLenum channel : channel_sizes) bound.bits += texture_parameter(id, 0, channel);
   bound.bits += texture_parameter(id, 0, GL_TEXTURE_DEPTH_SIZE);
@@ -96,7 +75,8 @@ void draw_recorded(RecordedDraws* record, const gl::Program& program, double loo
   if (record == nullptr) return draw();
   RecordedDraw& recorded = record->emplace_back();
   recorded.lookups = lookups;
-  set_texts(recorded, program.name());
+  recorded.vertex = program.vertex_source();
+  recorded.fragment = program.fragment_source();
   set_textures(recorded, program);
   set_targets(recorded);
   const gl::Query query = gl::Query::make(GL_SAMPLES_PASSED);

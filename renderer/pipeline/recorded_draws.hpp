@@ -6,38 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/gpu_cost.hpp"
 #include "renderer/gl/objects.hpp"
 
 namespace footprint {
 
-/// A texture of a program, as a draw leaves it bound.
-struct BoundTexture {
-  std::string name;
-  int bits = 0;            ///< of a texel
-  bool trilinear = false;  ///< its sampler blends two levels, and it has several
-  double bytes = 0;        ///< of all levels and layers
-};
-
 /// The texture that a unit has bound, and whether its sampler blends levels.
 /// name: in the shader.
 /// is_array: whether the shader reads an array of textures.
-[[nodiscard]] BoundTexture bound_texture(const std::string& name, GLuint unit, bool is_array);
-
-/// The texels of one target of a draw.
-struct TexelFormat {
-  int channels = 4;
-  int bits = 16;  ///< of a channel
-
-  [[nodiscard]] double bytes() const { return channels * bits / 8.0; }
-};
+[[nodiscard]] ReadTexture bound_texture(const std::string& name, GLuint unit, bool is_array);
 
 /// One draw, or one copy of texels.
 struct RecordedDraw {
-  std::string vertex, fragment;          ///< GLSL; both are empty for a copy
-  double pixels = 0;                     ///< that were drawn, or texels that were copied
-  double lookups = 0;                    ///< texture lookups per pixel
-  std::vector<TexelFormat> targets;      ///< in the order of the outputs
-  std::map<int, BoundTexture> textures;  ///< by unit
+  std::string vertex, fragment;         ///< GLSL; both are empty for a copy
+  double pixels = 0;                    ///< that were drawn, or texels that were copied
+  double lookups = 0;                   ///< texture lookups per pixel
+  std::vector<ColorTarget> targets;     ///< in the order of the outputs
+  std::map<int, ReadTexture> textures;  ///< by unit
 };
 
 using RecordedDraws = std::vector<RecordedDraw>;

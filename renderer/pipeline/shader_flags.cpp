@@ -12,14 +12,9 @@ namespace {
 
 using Variant = ShaderVariant;
 
-template <NormalDistribution distribution>
-bool is_distribution(const Variant& v) {
-  return v.brdf.distribution == distribution;
-}
-
-template <GeometryTerm geometry>
-bool is_geometry(const Variant& v) {
-  return v.brdf.geometry == geometry;
+template <auto part, auto value>
+bool brdf_has(const Variant& v) {
+  return v.brdf.*part == value;
 }
 
 template <Sampling sampling>
@@ -69,15 +64,15 @@ struct FlagRow {
 
 // Beside the effects, whose flags have their names.
 constexpr auto rows = std::to_array<FlagRow>({
-    {"distribution_blinn_phong", is_distribution<NormalDistribution::blinn_phong>},
-    {"distribution_beckmann", is_distribution<NormalDistribution::beckmann>},
-    {"distribution_ggx", is_distribution<NormalDistribution::ggx>},
-    {"distribution_vmf", is_distribution<NormalDistribution::vmf>},
-    {"geometry_none", is_geometry<GeometryTerm::none>},
-    {"geometry_tan", is_geometry<GeometryTerm::tan>},
-    {"geometry_ward", is_geometry<GeometryTerm::ward>},
-    {"geometry_smith", is_geometry<GeometryTerm::smith>},
-    {"fresnel_schlick", [](const Variant& v) { return v.brdf.fresnel == FresnelTerm::schlick; }},
+    {"distribution_blinn_phong", brdf_has<&BaseBrdf::distribution, NormalDistribution::blinn_phong>},
+    {"distribution_beckmann", brdf_has<&BaseBrdf::distribution, NormalDistribution::beckmann>},
+    {"distribution_ggx", brdf_has<&BaseBrdf::distribution, NormalDistribution::ggx>},
+    {"distribution_vmf", brdf_has<&BaseBrdf::distribution, NormalDistribution::vmf>},
+    {"geometry_none", brdf_has<&BaseBrdf::geometry, GeometryTerm::none>},
+    {"geometry_tan", brdf_has<&BaseBrdf::geometry, GeometryTerm::tan>},
+    {"geometry_ward", brdf_has<&BaseBrdf::geometry, GeometryTerm::ward>},
+    {"geometry_smith", brdf_has<&BaseBrdf::geometry, GeometryTerm::smith>},
+    {"fresnel_schlick", brdf_has<&BaseBrdf::fresnel, FresnelTerm::schlick>},
     {"sampling_frame", is_sampling<Sampling::frame>},
     {"sampling_texel", is_sampling<Sampling::after_shading>},
     {"sampling_point", [](const Variant& v) { return v.sampling == Sampling::nearest || v.sampling == Sampling::bilinear; }},

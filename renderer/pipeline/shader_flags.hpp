@@ -25,11 +25,7 @@ enum class Sampling {
 };
 
 /// Those of the reference.
-inline constexpr std::array<Word<Sampling>, 3> reference_filters{{
-    {Sampling::after_shading, "after_shading"},
-    {Sampling::nearest, "nearest"},
-    {Sampling::bilinear, "bilinear"},
-}};
+inline constexpr auto reference_filters = own_words<Sampling::after_shading, Sampling::nearest, Sampling::bilinear>;
 
 /// How a program integrates the light of an environment.
 enum class EnvironmentUse {
@@ -39,10 +35,7 @@ enum class EnvironmentUse {
 };
 
 /// How the reference integrates.
-inline constexpr std::array<Word<EnvironmentUse>, 2> reference_integrals{{
-    {EnvironmentUse::sampled, "sampled"},
-    {EnvironmentUse::dense, "dense"},
-}};
+inline constexpr auto reference_integrals = own_words<EnvironmentUse::sampled, EnvironmentUse::dense>;
 
 /// The figures that a program writes instead of radiance.
 enum class Counting {

@@ -76,14 +76,9 @@ ShadowMaps::ShadowMaps(const gl::ContextInfo& context, const Scene& scene, const
                        std::span<const GpuBatch> batches, SamplerCache& samplers)
     : views_(shadow_views(scene)),
       resolution_(scene.shadows.resolution),
-      both_sides_(scene.shadows.both_sides),
       maps_(make_maps(context, views_, scene)),
       sampler_(gl::comparing_sampler()),
       view_block_(std::as_bytes(std::span(views_.views))) {
-  draw(effects, batches, samplers);
-}
-
-void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batches, SamplerCache& samplers) {
   constexpr float far_plane = 1.0F;
   const gl::Program program("shadow maps", shared_stage("shadow_vertex.glsl", shader_flags({.effects = effects})),
                             shadow_fragment_shader(effects));
@@ -103,7 +98,7 @@ void ShadowMaps::draw(const EffectSet& effects, std::span<const GpuBatch> batche
                                glm::value_ptr(views_.views[i].world_to_map));
     gl::api().FrontFace(front_face(views_.views[i]));
     for (const GpuBatch& batch : batches) {
-      cull_backs(batch, both_sides_);
+      cull_backs(batch, scene.shadows.both_sides);
       draw_batch(batch, effects, samplers);
     }
   }

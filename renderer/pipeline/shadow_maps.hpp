@@ -35,11 +35,8 @@ class ShadowMaps {
   [[nodiscard]] std::size_t draws() const { return draws_; }
 
  private:
-  void draw(const EffectSet& effects, std::span<const GpuBatch> batches, SamplerCache& samplers);
-
   ShadowViews views_;
   int resolution_;
-  bool both_sides_;
   std::size_t draws_ = 0;
   gl::Texture maps_;
   gl::Sampler sampler_;

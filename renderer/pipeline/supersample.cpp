@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <span>
 
 namespace footprint {
@@ -26,25 +27,17 @@ void copy_tile(const Image& from, const Tile& tile, Image& to) {
   }
 }
 
-struct Pixel {
-  glm::dvec3 mean{0};
-  double count = 0;
-};
+using Pixel = glm::dvec4;  // a mean radiance, and of how many samples
 
 Pixel merged(const Pixel& a, const Pixel& b) {
-  const double count = a.count + b.count;
-  if (count <= 0.0) return {};
-  return {(a.count * a.mean + b.count * b.mean) / count, count};
-}
-
-Pixel pixel_of(const Image& mean, std::size_t i) {
-  const float* const texel = &mean.texels[4 * i];
-  return {{texel[0], texel[1], texel[2]}, texel[3]};
+  const double count = a.w + b.w;
+  if (count <= 0.0) return Pixel(0.0);
+  return {(a.w * glm::dvec3(a) + b.w * glm::dvec3(b)) / count, count};
 }
 
 void set(Image& image, std::size_t i, const Pixel& pixel, float coverage) {
-  for (int c = 0; c < 3; ++c) image.texels[4 * i + static_cast<std::size_t>(c)] = static_cast<float>(pixel.mean[c]);
-  image.texels[4 * i + 3] = pixel.count > 0.0 ? coverage : 0.0F;
+  const glm::vec4 texel(glm::vec3(pixel), pixel.w > 0.0 ? coverage : 0.0F);
+  std::ranges::copy_n(glm::value_ptr(texel), 4, &image.texels[4 * i]);
 }
 
 // The variance of the mean of blocks that are estimates of their own, B of them with weights w that sum to one:
@@ -53,8 +46,8 @@ glm::dvec3 variance_of(std::span<const Pixel> blocks, const Pixel& all) {
   glm::dvec3 sum(0);
   double filled = 0;
   for (const Pixel& block : blocks) {
-    if (block.count <= 0.0) continue;
-    const glm::dvec3 off = block.count / all.count * (block.mean - all.mean);
+    if (block.w <= 0.0) continue;
+    const glm::dvec3 off = block.w / all.w * glm::dvec3(block - all);
     sum += off * off;
     filled += 1.0;
   }
@@ -84,7 +77,8 @@ class SampleBlocks {
     Image first(width, height, 4), second(width, height, 4);
     for (std::size_t i = 0; i < out.mean.texel_count(); ++i) {
       std::array<Pixel, block_count> blocks;
-      std::ranges::transform(blocks_, blocks.begin(), [&](const Block& block) { return pixel_of(block.mean, i); });
+      std::ranges::transform(blocks_, blocks.begin(),
+                             [&](const Block& block) { return Pixel(glm::make_vec4(&block.mean.texels[4 * i])); });
       double covered = 0;
       for (const Block& block : blocks_) covered += block.covered.texels[i];
       const auto coverage = static_cast<float>(covered / spp);
@@ -93,10 +87,9 @@ class SampleBlocks {
       set(first, i, even, coverage);
       set(second, i, odd, coverage);
       set(out.mean, i, all, coverage);
-      if (all.count <= 0.0) continue;
-      const glm::dvec3 variance = variance_of(blocks, all);
-      for (int c = 0; c < 3; ++c)
-        out.standard_error.texels[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(std::sqrt(variance[c]));
+      if (all.w <= 0.0) continue;
+      const glm::vec3 deviation(glm::sqrt(variance_of(blocks, all)));
+      std::ranges::copy_n(glm::value_ptr(deviation), 3, &out.standard_error.texels[3 * i]);
     }
     if (has_halves) out.halves.emplace(std::move(first), std::move(second));
     return out;

@@ -32,30 +32,18 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   return scene.effects() & (method.info.honours | shared);
 }
 
-// How a program integrates area lights.
-struct AreaUse {
-  std::size_t points = 0;  // evaluated as points of light
-  bool by_lobes = false, sampled = false;
-};
-
-// Modules that do not integrate themselves list their lobes if they honour environments; patches of facets and sums
-// over texels list none.
-AreaUse area_use(const GpuScene& scene, const Method& method, bool integrates_itself) {
-  const GpuScene::LightCounts& lights = scene.light_counts();
-  if (integrates_itself) return {.sampled = lights.of[light_type::area] > 0};
-  const bool lists_lobes = has(method.info.honours, Effect::environment_light) && !method.info.sums_environment &&
-                           !has(scene.effects(), Effect::clear_coat) && !has_patches(scene.effects());
-  if (!lists_lobes || lights.area_by_lobes == 0) return {.points = lights.of[light_type::area_point]};
-  return {.points = lights.points_alone, .by_lobes = true};
-}
-
 // What scene and method decide about a program. A method whose samples are many, and whose module can, integrates
-// itself; drawn for one sample per pixel, directions would be all noise. Directional lights serve every module.
+// itself; drawn for one sample per pixel, directions would be all noise. Directional lights serve every module. Other
+// modules list their lobes for area lights if they honour environments; patches of facets and sums over texels list
+// none.
 ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, ShaderVariant v) {
   const MethodInfo& info = baked.method->info;
   const bool is_frame = v.sampling == Sampling::frame;
   const bool integrates_itself = info.draws_directions && !is_frame;
-  const AreaUse area = area_use(scene, *baked.method, integrates_itself);
+  const bool lists_lobes = !integrates_itself && has(info.honours, Effect::environment_light) &&
+                           !info.sums_environment && !has(scene.effects(), Effect::clear_coat) &&
+                           !has_patches(scene.effects());
+  const GpuScene::LightCounts& lights = scene.light_counts();
   v.effects = effects_of(scene, *baked.method);
   v.brdf = scene.brdf();
   v.horizon_open = scene.horizon() == Horizon::open;
@@ -67,11 +55,12 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, Shader
   v.sums_environment = info.sums_environment;
   v.environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0;
   v.facet_lobes = scene.facet_lobes();
-  v.lights = scene.light_counts().of;
-  v.lights[light_type::area_point] = area.points;
-  v.area_lobes = area.by_lobes;
-  v.area_sampled = area.sampled;
-  v.shadow_maps = scene.light_counts().shadow_maps;
+  v.lights = lights.of;
+  v.area_sampled = integrates_itself && lights.of[light_type::area] > 0;
+  v.area_lobes = lists_lobes && lights.area_by_lobes > 0;
+  if (integrates_itself) v.lights[light_type::area_point] = 0;
+  if (v.area_lobes) v.lights[light_type::area_point] = lights.points_alone;
+  v.shadow_maps = lights.shadow_maps;
   return v;
 }
 
@@ -326,11 +315,10 @@ void SurfaceProgram::set_samples(const SampleDraw& samples) const {
   gl::api().ProgramUniform1i(name, program_.uniform("sample_grid"), samples.grid);
   gl::api().ProgramUniform1ui(name, program_.uniform("sample_seed"), samples.seed);
   const auto set_pair = [&](const char* uniform, SamplePair pair) {
-    const GLint location = program_.uniform(uniform);
-    if (location < 0) return;
-    std::vector<glm::uvec2> digits(points.size());
-    std::ranges::transform(points, digits.begin(), [&](std::uint32_t point) { return sample_digits(pair, point); });
-    gl::api().ProgramUniform2uiv(name, location, static_cast<GLsizei>(digits.size()), glm::value_ptr(digits.front()));
+    std::vector<glm::uvec2> digits;
+    for (const std::uint32_t point : points) digits.push_back(sample_digits(pair, point));
+    gl::api().ProgramUniform2uiv(name, program_.uniform(uniform), static_cast<GLsizei>(digits.size()),
+                                 glm::value_ptr(digits.front()));
   };
   set_pair("sample_texels", SamplePair::texel);
   set_pair("draw_places", SamplePair::pixel);
@@ -428,11 +416,11 @@ void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, cons
   gl::api().Disable(GL_BLEND);
 }
 
-std::vector<BoundTexture> SurfaceProgram::bound_textures() const {
-  std::vector<BoundTexture> bound;
+std::map<int, ReadTexture> SurfaceProgram::bound_textures() const {
+  std::map<int, ReadTexture> bound;
   for (GLuint unit = 0; unit < forward_.units.size(); ++unit) {
     const TextureUnits::Texture& texture = forward_.units.textures()[unit];
-    bound.push_back(bound_texture(texture.name, unit, texture.sampler != "sampler2D"));
+    bound[static_cast<int>(unit)] = bound_texture(texture.name, unit, texture.sampler != "sampler2D");
   }
   return bound;
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -148,9 +149,9 @@ class SurfaceProgram {
             const SampleDraw& samples = {}) const;
 
   [[nodiscard]] const std::string& fragment_text() const { return forward_.shaders.fragment.text(); }
-  /// The textures that the last draw of this program bound, of the last material, in the order of their units. No other
+  /// The textures that the last draw of this program bound, of the last material, by unit. No other
   /// program may have drawn since.
-  [[nodiscard]] std::vector<BoundTexture> bound_textures() const;
+  [[nodiscard]] std::map<int, ReadTexture> bound_textures() const;
 
  private:
   void draw_batches(GpuScene& scene, const GpuMethod& method, const View& view, const glm::mat4& world_to_clip,

@@ -90,6 +90,18 @@ const float any_level = 1e3;  // no level is as coarse
 
 //? if sampling_frame
 //? include footprint_probes.glsl
+//? if texture_arrays
+vec4 fetchProbes(sampler2DArray map, int layer, Footprint f, Probes p, float level) {
+  countLookups(p.count);
+  vec4 sum = vec4(0.0);
+  int i = 0;
+  do {
+    sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), level);
+  } while (++i < p.count);
+  return sum;
+}
+
+//? end
 //? if filter_hardware
 vec4 fetch(sampler2D map, Footprint f) {
   countLookups(1);
@@ -117,13 +129,7 @@ vec4 fetch(sampler2D map, Footprint f) {
 //? if texture_arrays
 vec4 fetch(sampler2DArray map, int layer, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
-  countLookups(p.count);
-  vec4 sum = vec4(0.0);
-  int i = 0;
-  do {
-    sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), p.level);
-  } while (++i < p.count);
-  return sum;
+  return fetchProbes(map, layer, f, p, p.level);
 }
 //? end
 //? end
@@ -133,53 +139,33 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
   if (coarsest >= any_level) return fetch(map, layer, f);  //? if filter_hardware
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
-  countLookups(p.count);
-  float level = min(p.level, coarsest);
-  vec4 sum = vec4(0.0);
-  int i = 0;
-  do {
-    sum += probeWeight(p, i) * textureLod(map, vec3(probeUv(f, p, i), layer), level);
-  } while (++i < p.count);
-  return sum;
-}
-//? end
-
-// The finest level without filtering.
-vec4 fetchFinest(sampler2D map, Footprint f) {
-  countLookups(1);
-  countFinest(f);
-  return textureLod(map, f.uv, 0.0);
-}
-//? if texture_arrays
-vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
-  countLookups(1);
-  countFinest(f);
-  return textureLod(map, vec3(f.uv, layer), 0.0);
+  return fetchProbes(map, layer, f, p, min(p.level, coarsest));
 }
 //? end
 //? end
 
 vec2 texel_draw;  // of this sample, uniform in [0, 1)  //? if random_draws
 
-//? if sampling_texel
-// One texel of the finest level, drawn with bilinear weights. The expectation of the shaded value is then the bilinear
-// filter of radiance. Maps with the same size and coordinates draw the same texel. The sampler must be `nearest`.
-vec2 drawnTexel(vec2 size, Footprint f) { return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size; }
+// Where a sample reads the finest level of a map. For the reference: one texel, drawn with bilinear weights by a sampler
+// that must be `nearest`. The expectation of the shaded value is then the bilinear filter of radiance. Maps with the same
+// size and coordinates draw the same texel. Or a point, where the sampler selects nearest or bilinear filtering of values.
+vec2 finestUv(vec2 size, Footprint f) {
+  return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size;  //? if sampling_texel
+  return f.uv;                                                  //? else
+}
 
-vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, drawnTexel(vec2(textureSize(map, 0)), f), 0.0); }
+// The finest level without filtering.
+vec4 fetchFinest(sampler2D map, Footprint f) {
+  countLookups(1);
+  countFinest(f);
+  return textureLod(map, finestUv(vec2(textureSize(map, 0)), f), 0.0);
+}
 //? if texture_arrays
 vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
-  return textureLod(map, vec3(drawnTexel(vec2(textureSize(map, 0).xy), f), layer), 0.0);
+  countLookups(1);
+  countFinest(f);
+  return textureLod(map, vec3(finestUv(vec2(textureSize(map, 0).xy), f), layer), 0.0);
 }
-//? end
-//? end
-
-//? if sampling_point
-// The finest level at a point; the sampler selects nearest or bilinear filtering of values.
-vec4 fetchFinest(sampler2D map, Footprint f) { return textureLod(map, f.uv, 0.0); }
-//? if texture_arrays
-vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) { return textureLod(map, vec3(f.uv, layer), 0.0); }
-//? end
 //? end
 
 //? if not sampling_frame
@@ -224,8 +210,7 @@ FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
 //? else
 int footprintTexelCount(ivec2 finest, Footprint f) { return 1; }
 FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
-  return FootprintTexel(drawnTexel(vec2(finest), f), 0.0, 1.0);  //? if sampling_texel
-  return FootprintTexel(f.uv, 0.0, 1.0);                         //? else
+  return FootprintTexel(finestUv(vec2(finest), f), 0.0, 1.0);
 }
 //? end
 

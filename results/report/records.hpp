@@ -230,11 +230,7 @@ enum class Verdict {
 };
 
 /// As reports write it.
-inline constexpr std::array<Word<Verdict>, 3> verdict_words{{
-    {Verdict::reproduced, "reproduced"},
-    {Verdict::not_reproduced, "not_reproduced"},
-    {Verdict::undecided, "undecided"},
-}};
+inline constexpr auto verdict_words = own_words<Verdict::reproduced, Verdict::not_reproduced, Verdict::undecided>;
 constexpr const auto& words_of(Verdict /*verdict*/) { return verdict_words; }
 
 /// Whose statement a claim is. Only a paper's own count as reproduced or not; the others are counted apart.
@@ -247,13 +243,9 @@ enum class ClaimSource {
 };
 
 /// As experiment files and reports write it, the paper's own first.
-inline constexpr std::array<Word<ClaimSource>, 5> claim_source_words{{
-    {ClaimSource::paper, "paper"},
-    {ClaimSource::gpu_time, "gpu_time"},
-    {ClaimSource::closed_form, "closed_form"},
-    {ClaimSource::our_measure, "our_measure"},
-    {ClaimSource::ours, "ours"},
-}};
+inline constexpr auto claim_source_words =
+    own_words<ClaimSource::paper, ClaimSource::gpu_time, ClaimSource::closed_form, ClaimSource::our_measure,
+              ClaimSource::ours>;
 constexpr const auto& words_of(ClaimSource /*source*/) { return claim_source_words; }
 
 /// A figure that a paper prints, and the one that was measured.

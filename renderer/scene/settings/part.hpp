@@ -29,8 +29,7 @@ enum class SlopeFilter {
   scharr,   ///< rows weighted 3, 10, 3
 };
 
-inline constexpr std::array<Word<SlopeFilter>, 3> slope_filters{
-    {{SlopeFilter::central, "central"}, {SlopeFilter::sobel, "sobel"}, {SlopeFilter::scharr, "scharr"}}};
+inline constexpr auto slope_filters = own_words<SlopeFilter::central, SlopeFilter::sobel, SlopeFilter::scharr>;
 
 /// How heights become slopes.
 struct HeightSettings {

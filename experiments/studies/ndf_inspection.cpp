@@ -287,7 +287,7 @@ class NdfEvaluator {
   std::optional<DiskCache> cache_;
   BakeTarget whole_;
   std::optional<BakeTarget> partial_;
-  std::optional<BakeCache> bakes_;
+  std::optional<DiskCache> bakes_;
 };
 
 }  // namespace

@@ -35,19 +35,14 @@ void require_upload(const Prefiltered& prefiltered) {
   }
 }
 
-std::optional<BakeCache> bakes_in(const std::optional<DiskCache>& files) {
-  return files ? std::optional<BakeCache>(*files) : std::nullopt;
-}
-
 // A method on the GPU, baked and uploaded one material after the other, so that at most one texture is in memory
 // twice. A frame build may read what was baked; of every other method the GPU has all that a frame needs.
 PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
                                const Method& method, const MethodSpec& spec, const std::optional<DiskCache>& files,
                                const Progress& progress) {
-  const std::optional<BakeCache> cache = bakes_in(files);
   auto baked = std::make_unique<BakedMethod>(make_bake(method, spec));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
-  bake_materials(*baked, scene, effects, progress, cache ? &*cache : nullptr, [&](std::size_t material) {
+  bake_materials(*baked, scene, effects, progress, files ? &*files : nullptr, [&](std::size_t material) {
     require_upload(baked->materials[material]);
     gpu->upload_material(material, [&](std::size_t texture) {
       if (!gpu->has_frame_build()) free_texels(baked->materials[material].textures[texture]);
@@ -226,8 +221,7 @@ BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const Ef
                        const Progress& progress) {
   const MethodSpec& spec = settings.methods.front();
   const std::optional<DiskCache> files = cache_of(settings);
-  const std::optional<BakeCache> cache = bakes_in(files);
-  return bake(find_method(spec), spec, scene, effects, progress, cache ? &*cache : nullptr);
+  return bake(find_method(spec), spec, scene, effects, progress, files ? &*files : nullptr);
 }
 
 void require_pictures(const glm::ivec2& size, int count) {

@@ -56,44 +56,27 @@ TEST(PrefilteredFile, EveryCutAndEveryFlippedBitIsNoticed) {
   }
 }
 
-TEST(BakeCache, FindsWhatItStoredAndNothingElse) {
-  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
-  EXPECT_FALSE(cache.find("a"));
-  cache.store("a", example());
-  EXPECT_EQ(cache.find("a"), example());
-  EXPECT_FALSE(cache.find("b"));
-}
-
-TEST(BakeCache, DamagedFileCountsAsAbsent) {
-  const DiskCache files(test::fresh_folder() / "cache");
-  const BakeCache cache(files);
-  cache.store("a", example());
-  fs::resize_file(files.folder() / "a.bake", 40);
-  EXPECT_FALSE(cache.find("a"));
-}
-
 TEST(BakeCache, TheKeyFollowsEverythingThatABakeDependsOn) {
-  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
   const Material material = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {}).materials[0];
   const std::vector<OptionSpec> specs{number_option("n", 4.0, 1, 8, "lobes")};
   const Options options(specs, {}, "test");
-  const std::string key = cache.key("m", material, options, {});
-  EXPECT_EQ(cache.key("m", material, options, {}), key);
-  EXPECT_NE(cache.key("other", material, options, {}), key);
-  EXPECT_NE(cache.key("m", material, Options(specs, {{"n", "5"}}, "test"), {}), key);
-  EXPECT_NE(cache.key("m", material, options, EffectSet{}.set()), key);
+  const std::string key = bake_key("m", material, options, {});
+  EXPECT_EQ(bake_key("m", material, options, {}), key);
+  EXPECT_NE(bake_key("other", material, options, {}), key);
+  EXPECT_NE(bake_key("m", material, Options(specs, {{"n", "5"}}, "test"), {}), key);
+  EXPECT_NE(bake_key("m", material, options, EffectSet{}.set()), key);
   Material changed = material;
   changed.roughness *= 0.5F;
-  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  EXPECT_NE(bake_key("m", changed, options, {}), key);
   changed = material;
   changed.normal_map->image = std::make_shared<const Image>(testing::constant_normals(4, 4, {0, 0.6F, 0.8F}));
-  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  EXPECT_NE(bake_key("m", changed, options, {}), key);
   changed = material;
   changed.normal_map->coordinates.wrap[0] = Wrap::clamp_to_edge;
-  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  EXPECT_NE(bake_key("m", changed, options, {}), key);
   changed = material;
   changed.layer_map = material.normal_map;
-  EXPECT_NE(cache.key("m", changed, options, {}), key);
+  EXPECT_NE(bake_key("m", changed, options, {}), key);
 }
 
 // A method that counts its precomputes.
@@ -112,7 +95,7 @@ struct Counting {
 };
 
 TEST(Bake, SlowPrecomputeIsDoneOnce) {
-  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
+  const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
   Counting slow(true);
   const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
@@ -128,8 +111,21 @@ TEST(Bake, SlowPrecomputeIsDoneOnce) {
   EXPECT_FALSE(without.cached);
 }
 
+TEST(Bake, ADamagedFileCountsAsAbsent) {
+  const DiskCache cache(test::fresh_folder() / "cache");
+  const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
+  Counting slow(true);
+  const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};
+  (void)bake(slow.method, spec, scene, {}, no_progress, &cache);
+  for (const auto& file : fs::directory_iterator(cache.folder())) fs::resize_file(file.path(), 40);
+  const BakedMethod again = bake(slow.method, spec, scene, {}, no_progress, &cache);
+  EXPECT_EQ(slow.count, 2);
+  EXPECT_FALSE(again.cached);
+  EXPECT_EQ(again.materials.at(0), example());
+}
+
 TEST(Bake, FastPrecomputeIsNotCached) {
-  const BakeCache cache{DiskCache(test::fresh_folder() / "cache")};
+  const DiskCache cache(test::fresh_folder() / "cache");
   const Scene scene = testing::square_scene(testing::constant_normals(4, 4, {0, 0, 1}), {});
   Counting fast(false);
   const MethodSpec spec{.text = "counting", .name = "counting", .options = {}};

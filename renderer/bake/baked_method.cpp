@@ -46,17 +46,19 @@ Prefiltered precomputed(const Method& method, const Scene& scene, std::size_t in
 // Bakes one material: after its base BRDF changed (`before`), or by reading the cache, which gets a slow bake that it
 // lacks.
 Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
-                  const EffectSet& effects, const Progress& progress, const BakeCache* cache,
+                  const EffectSet& effects, const Progress& progress, const DiskCache* cache,
                   const BakedMethod* before) {
   const Material& material = scene.materials.at(index);
   if (before != nullptr && method.precompute_brdf)
     return {method.precompute_brdf(before->materials.at(index), material, options, effects), false};
   if (cache == nullptr || !method.info.slow_precompute)
     return {precomputed(method, scene, index, options, effects, progress), false};
-  const std::string key = cache->key(method.info.name + method.file_content, material, options, effects);
-  if (std::optional<Prefiltered> cached = cache->find(key)) return {*std::move(cached), true};
+  const std::string key = bake_key(method.info.name + method.file_content, material, options, effects);
+  const std::optional<ByteSource> bytes = cache->find(key);
+  if (auto cached = bytes ? from_bytes(*bytes) : std::nullopt) return {*std::move(cached), true};
   Outcome outcome{precomputed(method, scene, index, options, effects, progress), false};
-  cache->store(key, outcome.prefiltered);
+  cache->store(key, byte_count(outcome.prefiltered),
+               [&](const ByteSink& out) { write_bytes(outcome.prefiltered, out); });
   return outcome;
 }
 
@@ -79,27 +81,16 @@ std::size_t added_bytes(const BakedMethod& baked) {
   return bytes;
 }
 
-constexpr std::string_view form = "footprint bake 7";  // another number for another layout
+constexpr std::string_view form = "footprint bake 8";  // another number for another layout
 
 }  // namespace
 
-void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink) {
-  ChecksummedWriter out(form, sink);
-  out(prefiltered);
-  std::move(out).finish();
-}
+void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink) { write_checksummed(form, prefiltered, sink); }
 
-std::optional<Prefiltered> from_bytes(const ByteSource& bytes) {
-  std::optional<ChecksummedReader> in = ChecksummedReader::open(bytes, form);
-  if (!in) return {};
-  Prefiltered prefiltered;
-  (*in)(prefiltered);
-  if (!in->finished()) return {};
-  return prefiltered;
-}
+std::optional<Prefiltered> from_bytes(const ByteSource& bytes) { return read_checksummed<Prefiltered>(form, bytes); }
 
-std::string BakeCache::key(const std::string& method, const Material& material, const Options& options,
-                           const EffectSet& effects) const {
+std::string bake_key(const std::string& method, const Material& material, const Options& options,
+                     const EffectSet& effects) {
   ContentHash hash;
   add_program(hash);
   for (const auto& [name, value] : options.all()) {
@@ -110,15 +101,6 @@ std::string BakeCache::key(const std::string& method, const Material& material, 
   hash.add(effects.to_string());
   add_content(hash, material);
   return fmt::format("{}-{}", method, hash.hex());
-}
-
-std::optional<Prefiltered> BakeCache::find(const std::string& key) const {
-  const std::optional<ByteSource> bytes = files_.find(key);
-  return bytes ? from_bytes(*bytes) : std::nullopt;
-}
-
-void BakeCache::store(const std::string& key, const Prefiltered& prefiltered) const {
-  files_.store(key, byte_count(prefiltered), [&](const ByteSink& out) { write_bytes(prefiltered, out); });
 }
 
 std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info, const Options& options,
@@ -144,7 +126,7 @@ BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
 }
 
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
-                    const BakeCache* cache, const MaterialBaked& when_baked, const BakedMethod* before) {
+                    const DiskCache* cache, const MaterialBaked& when_baked, const BakedMethod* before) {
   const Method& method = *baked.method;
   baked.cached = cache != nullptr && method.info.slow_precompute;
   const auto count = static_cast<double>(scene.materials.size());
@@ -177,7 +159,7 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
 }
 
 BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
-                 const Progress& progress, const BakeCache* cache) {
+                 const Progress& progress, const DiskCache* cache) {
   BakedMethod baked = make_bake(method, spec);
   bake_materials(baked, scene, effects, progress, cache, [](std::size_t) {});
   return baked;

@@ -24,21 +24,10 @@ void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink);
 /// The value that `write_bytes` wrote; none if the bytes are truncated, too long, damaged or of another form.
 [[nodiscard]] std::optional<Prefiltered> from_bytes(const ByteSource& bytes);
 
-/// The bakes of methods in a DiskCache; damaged ones count as missing.
-class BakeCache {
- public:
-  explicit BakeCache(DiskCache files) : files_(std::move(files)) {}
-
-  /// The key of a bake: the method's name, and a hash of this program's executable, the options, the effects and the
-  /// material's values and maps. Another build of the program therefore bakes again.
-  [[nodiscard]] std::string key(const std::string& method, const Material& material, const Options& options,
-                                const EffectSet& effects) const;
-  [[nodiscard]] std::optional<Prefiltered> find(const std::string& key) const;
-  void store(const std::string& key, const Prefiltered& prefiltered) const;
-
- private:
-  DiskCache files_;
-};
+/// The key of a bake in a DiskCache: the method's name, and a hash of this program's executable, the options, the
+/// effects and the material's values and maps. Another build of the program therefore bakes again.
+[[nodiscard]] std::string bake_key(const std::string& method, const Material& material, const Options& options,
+                                   const EffectSet& effects);
 
 /// A note if a lobe of the material is too narrow for the precision of the option `storage` (stability.md). None
 /// if the method has no such option or does not round lobes, normals do not vary, or all lobes are wide enough.
@@ -72,13 +61,13 @@ using MaterialBaked = std::function<void(std::size_t)>;
 /// Runs the precompute of `baked` for one material after the other, as `bake` does. `seconds` excludes `when_baked`.
 /// before: the bake of a scene that differs in the base BRDF alone, instead of `cache`; null: none.
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
-                    const BakeCache* cache, const MaterialBaked& when_baked, const BakedMethod* before = nullptr);
+                    const DiskCache* cache, const MaterialBaked& when_baked, const BakedMethod* before = nullptr);
 
 /// Runs the precompute of `spec` for every material, or reads it from the cache.
 /// effects: the scene's; the method gets those that it honours.
-/// cache: may be null.
+/// cache: may be null; damaged bakes count as missing.
 [[nodiscard]] BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene,
-                               const EffectSet& effects, const Progress& progress, const BakeCache* cache = nullptr);
+                               const EffectSet& effects, const Progress& progress, const DiskCache* cache = nullptr);
 
 /// Bakes a method again after the base BRDF of its materials changed: only what depends on it
 /// (Method::precompute_brdf). before: the bake with the BRDF before, of the same effects.

@@ -20,8 +20,6 @@ namespace {
 constexpr std::size_t checksum_length = 16;
 constexpr std::size_t piece_length = std::size_t{1} << 20U;  // read at once to compute a checksum
 
-std::string checksum(std::uint64_t sum) { return fmt::format("{:016x}", sum); }
-
 // The checksum of all bytes; none if they cannot be read.
 std::optional<std::string> checksum_of(const ByteSource& bytes) {
   std::vector<std::uint8_t> piece;
@@ -32,10 +30,6 @@ std::optional<std::string> checksum_of(const ByteSource& bytes) {
     sum = fnv1a(std::as_bytes(std::span(piece)), sum);
   }
   return checksum(sum);
-}
-
-std::span<const std::uint8_t> bytes_of(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 }  // namespace
@@ -54,7 +48,9 @@ void ContentHash::add(std::span<const std::byte> field) {
 
 void ContentHash::add(std::string_view field) { add(std::as_bytes(std::span(field))); }
 
-std::string ContentHash::hex() const { return fmt::format("{:016x}", state_); }
+std::string checksum(std::uint64_t sum) { return fmt::format("{:016x}", sum); }
+
+std::string ContentHash::hex() const { return checksum(state_); }
 
 std::optional<ByteSource> ByteSource::of_file(const std::filesystem::path& file) {
   // A pipe would wait for its other end.
@@ -116,55 +112,38 @@ std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file, std
   return bytes;
 }
 
-void ChecksummedWriter::put(std::span<const std::uint8_t> bytes) {
-  sum_ = fnv1a(std::as_bytes(bytes), sum_);
-  out_(bytes);
+void ByteArchive::pass(bool& value) {
+  auto byte = static_cast<std::uint8_t>(value);
+  pass(byte);
+  whole_ = whole_ && byte <= 1;
+  value = byte == 1;
 }
 
-void ChecksummedWriter::add_block(std::span<const std::uint8_t> block) {
-  add<std::uint64_t>(block.size());
-  put(block);
+void ByteArchive::pass(std::string& text) {
+  const std::size_t size = pass_count(text.size(), 1);
+  if (in_) text.resize(size);
+  pass_bytes({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
 }
 
-void ChecksummedWriter::add_text(std::string_view text) { add_block(bytes_of(text)); }
-
-void ChecksummedWriter::finish() && { out_(bytes_of(checksum(sum_))); }
-
-std::vector<std::uint8_t> write_checksummed(std::string_view form,
-                                            const std::function<void(ChecksummedWriter&)>& fill) {
-  std::vector<std::uint8_t> bytes;
-  ChecksummedWriter writer(form, appending_to(bytes));
-  fill(writer);
-  std::move(writer).finish();
-  return bytes;
+std::size_t ByteArchive::pass_count(std::uint64_t count, std::size_t unit) {
+  pass(count);
+  whole_ = whole_ && (!in_ || count <= left()) && count % unit == 0;
+  return whole_ ? static_cast<std::size_t>(count / unit) : 0;
 }
 
-std::optional<ChecksummedReader> ChecksummedReader::open(const ByteSource& bytes, std::string_view form) {
+void ByteArchive::pass_bytes(std::span<std::uint8_t> bytes) {
+  if (!in_) return out_(bytes);
+  whole_ = whole_ && in_->read(at_, bytes);
+  if (whole_) at_ += bytes.size();
+  if (!whole_) std::ranges::fill(bytes, std::uint8_t{0});
+}
+
+std::optional<ByteSource> without_checksum(const ByteSource& bytes) {
   if (bytes.size() < checksum_length) return {};
-  const ByteSource body = bytes.first(bytes.size() - checksum_length);
+  ByteSource body = bytes.first(bytes.size() - checksum_length);
   std::string last(checksum_length, '\0');
   if (!bytes.read(body.size(), {reinterpret_cast<std::uint8_t*>(last.data()), last.size()})) return {};
-  if (checksum_of(body) != last) return {};
-  ChecksummedReader reader(body);
-  if (reader.get_text() != form) return {};
-  return reader;
-}
-
-std::string ChecksummedReader::get_text() {
-  const std::vector<char> text = get_values<char>();
-  return {text.begin(), text.end()};
-}
-
-std::uint64_t ChecksummedReader::get_count(std::size_t least) {
-  const auto count = get<std::uint64_t>();
-  whole_ = whole_ && count <= left() / least;
-  return whole_ ? count : 0;
-}
-
-bool ChecksummedReader::take(std::span<std::uint8_t> out) {
-  whole_ = whole_ && body_.read(at_, out);
-  if (whole_) at_ += out.size();
-  return whole_;
+  return checksum_of(body) == last ? std::optional(body) : std::nullopt;
 }
 
 }  // namespace footprint

@@ -1,5 +1,4 @@
-// Bytes: sinks that receive them piece by piece, sources in memory or in a file, content hashes, and values stored with
-// a checksum.
+// Bytes: sinks that receive them piece by piece, sources in memory or in a file, content hashes, and values as bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -81,156 +81,128 @@ class ByteSource {
 /// Throws Error (usage): missing, a folder or a device, empty, unreadable, or too large.
 [[nodiscard]] std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file, std::uint64_t largest);
 
-/// Writes values in this machine's byte order, then a checksum. Values are written piece by piece, so that a file of
-/// gigabytes needs no second copy. A structure is written and read member by member; one that has constructors by its
-/// `fields(archive, value)`, a template that calls the archive with all of its members.
-class ChecksummedWriter {
- public:
-  /// form: names the kind and the order of the values; change it with them.
-  ChecksummedWriter(std::string_view form, ByteSink out) : out_(std::move(out)) { add_text(form); }
+/// Whether a value may be passed as its bytes: a number, an enumeration, a fixed number of those, or a structure of
+/// them without gaps, whose content is undefined. A bool is checked when it is read.
+template <class T>
+[[nodiscard]] consteval bool passes_as_bytes() {
+  if constexpr (!std::is_trivially_copyable_v<T> || std::is_same_v<T, bool>) {
+    return false;
+  } else if constexpr (
+      requires { T::length(); } || requires { std::tuple_size<T>::value; }) {  // of glm, or an array
+    return passes_as_bytes<typename T::value_type>();
+  } else if constexpr (std::is_aggregate_v<T>) {
+    return []<class... Members>(std::type_identity<std::tuple<Members&...>> /*members*/) {
+      return (passes_as_bytes<Members>() && ...) && (sizeof(Members) + ...) == sizeof(T);
+    }(std::type_identity<decltype(members_of(std::declval<T&>()))>());
+  } else {
+    return std::is_arithmetic_v<T> || std::is_enum_v<T>;
+  }
+}
 
+/// Passes values to bytes or back, in this machine's byte order, piece by piece, so that gigabytes need no second copy.
+/// Structures are passed member by member, or by their `fields(archive, value)`, a template that calls the archive with
+/// its members.
+class ByteArchive {
+ public:
+  explicit ByteArchive(ByteSink out) : out_(std::move(out)) {}
+  /// After the first mismatch all values are empty, and `finished` is false.
+  explicit ByteArchive(ByteSource in) : in_(std::move(in)) {}
+
+  /// Reads into the values, which are constant only when they are written.
   template <class... T>
   void operator()(const T&... values) {
-    (write(values), ...);
+    (pass(const_cast<T&>(values)), ...);  // NOLINT(cppcoreguidelines-pro-type-const-cast): one walk for both directions
   }
 
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value>
-  void add(const Value& value) { put({reinterpret_cast<const std::uint8_t*>(&value), sizeof(Value)}); }
-  void add_block(std::span<const std::uint8_t> block);
-  void add_text(std::string_view text);
-  /// As a block.
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value>
-  void add_values(const std::vector<Value>& values) {
-    add_block({reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(Value)});
-  }
-
-  /// Writes the checksum of everything before it.
-  void finish() &&;
-
- private:
-  template <class T>
-  void write(const T& value) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      add(value);
-    } else if constexpr (std::is_aggregate_v<T>) {
-      std::apply(*this, members_of(value));
-    } else {
-      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): shared with the reader; a writer changes nothing
-      fields(*this, const_cast<T&>(value));
-    }
-  }
-  void write(const std::string& text) { add_text(text); }
-  template <class T>
-  void write(const std::vector<T>& values) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      add_values(values);
-    } else {
-      add<std::uint64_t>(values.size());
-      for (const T& value : values) write(value);
-    }
-  }
-  template <class T>
-  void write(const std::optional<T>& value) {
-    add(value.has_value());
-    if (value) write(*value);
-  }
-  template <class T>
-  void write(const std::map<std::string, T>& values) {
-    add<std::uint64_t>(values.size());
-    for (const auto& [name, value] : values) (*this)(name, value);
-  }
-  void put(std::span<const std::uint8_t> bytes);
-
-  ByteSink out_;
-  std::uint64_t sum_ = fnv1a_start;
-};
-
-/// The bytes that `fill` writes, with their checksum.
-[[nodiscard]] std::vector<std::uint8_t> write_checksummed(std::string_view form,
-                                                          const std::function<void(ChecksummedWriter&)>& fill);
-
-/// Reads the output of ChecksummedWriter. After the first mismatch all values are empty and `finished` is false.
-class ChecksummedReader {
- public:
-  /// Verifies all bytes first. None if they are truncated, too long, damaged or of another form.
-  [[nodiscard]] static std::optional<ChecksummedReader> open(const ByteSource& bytes, std::string_view form);
-
-  template <class... T>
-  void operator()(T&... values) {
-    (read(values), ...);
-  }
-
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value> Value get() {
-    if constexpr (std::is_same_v<Value, bool>) {  // any byte but 0 and 1 is not a valid bool
-      const auto byte = get<std::uint8_t>();
-      whole_ = whole_ && byte <= 1;
-      return byte == 1;
-    } else {
-      Value value{};
-      if (!take({reinterpret_cast<std::uint8_t*>(&value), sizeof(Value)})) return Value{};
-      return value;
-    }
-  }
-  std::vector<std::uint8_t> get_block() { return get_values<std::uint8_t>(); }
-  std::string get_text();
-  /// The values of `add_values`.
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value> std::vector<Value> get_values() {
-    const auto size = get<std::uint64_t>();
-    whole_ = whole_ && size <= left() && size % sizeof(Value) == 0;
-    std::vector<Value> values(whole_ ? static_cast<std::size_t>(size) / sizeof(Value) : 0);
-    if (!take({reinterpret_cast<std::uint8_t*>(values.data()), values.size() * sizeof(Value)})) values.clear();
-    return values;
-  }
-  /// A count of items of at least `least` bytes each, so that a damaged count cannot make a loop long.
-  std::uint64_t get_count(std::size_t least);
-  /// Whether everything was read, without a mismatch.
+  /// Whether all bytes were read, without a mismatch.
   [[nodiscard]] bool finished() const { return whole_ && left() == 0; }
 
  private:
-  explicit ChecksummedReader(ByteSource body) : body_(std::move(body)) {}
   template <class T>
-  void read(T& value) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      value = get<T>();
-    } else if constexpr (std::is_aggregate_v<T>) {
-      std::apply(*this, members_of(value));
-    } else {
+  void pass(T& value) {
+    if constexpr (passes_as_bytes<T>()) {
+      pass_bytes({reinterpret_cast<std::uint8_t*>(&value), sizeof(T)});
+    } else if constexpr (requires { fields(*this, value); }) {
       fields(*this, value);
-    }
-  }
-  void read(std::string& text) { text = get_text(); }
-  template <class T>
-  void read(std::vector<T>& values) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
-      values = get_values<T>();
     } else {
-      values.clear();
-      for (std::uint64_t count = get_count(1); count > 0; --count) read(values.emplace_back());
+      std::apply(*this, members_of(value));
+    }
+  }
+  void pass(bool& value);
+  void pass(std::string& text);
+  template <class T>
+  void pass(std::vector<T>& values) {
+    constexpr std::size_t unit = passes_as_bytes<T>() ? sizeof(T) : 1;
+    const std::size_t count = pass_count(values.size() * unit, unit);
+    if (in_) values = std::vector<T>(count);
+    if constexpr (passes_as_bytes<T>()) {
+      pass_bytes({reinterpret_cast<std::uint8_t*>(values.data()), values.size() * sizeof(T)});
+    } else {
+      for (T& value : values) pass(value);
     }
   }
   template <class T>
-  void read(std::optional<T>& value) {
-    value.reset();
-    if (get<bool>()) read(value.emplace());
+  void pass(std::optional<T>& value) {
+    bool has_value = value.has_value();
+    pass(has_value);
+    if (in_) value.reset();
+    if (in_ && has_value) value.emplace();
+    if (value) pass(*value);
   }
   template <class T>
-  void read(std::map<std::string, T>& values) {
-    values.clear();
-    for (std::uint64_t count = get_count(1); count > 0; --count) {
-      const std::string name = get_text();
-      read(values[name]);
+  void pass(std::map<std::string, T>& values) {
+    std::size_t count = pass_count(values.size(), 1);
+    for (auto& [name, value] : values) (*this)(name, value);
+    for (; in_ && count > 0; --count) {
+      std::string name;
+      pass(name);
+      pass(values[name]);
     }
   }
-  [[nodiscard]] std::uint64_t left() const { return body_.size() - at_; }
-  bool take(std::span<std::uint8_t> out);
 
-  ByteSource body_;
+  /// Passes a number of bytes or, with a `unit` of 1, of items of at least a byte, so that a damaged one cannot make a
+  /// loop long. Returns it in units.
+  std::size_t pass_count(std::uint64_t count, std::size_t unit);
+  void pass_bytes(std::span<std::uint8_t> bytes);
+  [[nodiscard]] std::uint64_t left() const { return in_ ? in_->size() - at_ : 0; }
+
+  ByteSink out_;
+  std::optional<ByteSource> in_;  // none: writes
   std::uint64_t at_ = 0;
   bool whole_ = true;
 };
+
+/// The 16 digits that follow checksummed bytes.
+[[nodiscard]] std::string checksum(std::uint64_t sum);
+
+/// Bytes without the checksum behind them; none if they are truncated, too long or damaged.
+[[nodiscard]] std::optional<ByteSource> without_checksum(const ByteSource& bytes);
+
+/// Writes a value with a checksum.
+/// form: names the kind and the layout of the value; change it with them.
+template <class Value>
+void write_checksummed(std::string_view form, const Value& value, const ByteSink& out) {
+  std::uint64_t sum = fnv1a_start;
+  ByteArchive archive([&](std::span<const std::uint8_t> piece) {
+    sum = fnv1a(std::as_bytes(piece), sum);
+    out(piece);
+  });
+  archive(std::string(form), value);
+  const std::string digits = checksum(sum);
+  out({reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()});
+}
+
+/// The value that `write_checksummed` wrote; none if the bytes are truncated, too long, damaged or of another form.
+template <class Value>
+[[nodiscard]] std::optional<Value> read_checksummed(std::string_view form, const ByteSource& bytes) {
+  const std::optional<ByteSource> body = without_checksum(bytes);
+  if (!body) return {};
+  ByteArchive archive(*body);
+  std::string found;
+  archive(found);
+  std::optional<Value> value;
+  if (found == form) archive(value.emplace());
+  return archive.finished() ? std::move(value) : std::nullopt;
+}
 
 }  // namespace footprint

@@ -18,17 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view extension = ".bake";
 
-constexpr std::uint64_t largest_file = std::uint64_t{64} << 30U;
-
-// Empty if the file is missing or unreadable.
-std::vector<std::uint8_t> content_of(const fs::path& file) {
-  try {
-    return read_file_bytes(file, largest_file);
-  } catch (const Error&) {
-    return {};
-  }
-}
-
 // The key follows the content, so that renamed or copied files are not accepted.
 void write_with_key(const ByteSink& out, const ByteWriter& write, const std::string& key) {
   write(out);
@@ -105,8 +94,7 @@ void DiskCache::make_room(std::uint64_t bytes) const {
 void add_program(ContentHash& hash) {
   static const std::string identity = [] {
     ContentHash program;
-    const std::vector<std::uint8_t> bytes = content_of("/proc/self/exe");
-    program.add(std::as_bytes(std::span(bytes)));
+    program.add(file_text("/proc/self/exe"));
     return program.hex();
   }();
   hash.add(identity);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/names.hpp"
@@ -41,9 +42,7 @@ void take_missing(toml::table& target, toml::table& presets) {
   }
 }
 
-std::optional<std::string> word_of(const toml::node& node) {
-  return node.is_string() ? node.value<std::string>() : std::nullopt;
-}
+std::optional<std::string> word_of(const toml::node& node) { return node.value_exact<std::string>(); }
 
 std::optional<std::string> word_or_number_of(const toml::node& node) {
   if (node.is_integer()) return fmt::format("{}", *node.value<std::int64_t>());
@@ -67,30 +66,11 @@ std::optional<std::vector<std::string>> texts_of(const toml::node& node,
 
 }  // namespace
 
-struct TomlTable::Parsed {
-  std::shared_ptr<const toml::table> file;
-  const toml::table* table;
-
-  [[nodiscard]] const toml::node* find(std::string_view key) const { return table->get(key); }
-  /// Another table of the same file.
-  [[nodiscard]] std::shared_ptr<const Parsed> with(const toml::table& other) const {
-    return std::make_shared<const Parsed>(Parsed{file, &other});
-  }
-
-  static std::shared_ptr<const Parsed> whole(toml::table content);
-};
-
-std::shared_ptr<const TomlTable::Parsed> TomlTable::Parsed::whole(toml::table content) {
-  auto parsed = std::make_shared<const toml::table>(std::move(content));
-  const toml::table* const table = parsed.get();
-  return std::make_shared<const Parsed>(Parsed{std::move(parsed), table});
-}
-
 TomlTable::TomlTable(const std::filesystem::path& file, const std::vector<std::string>& known)
-    : TomlTable(Parsed::whole(parse_file(file)), file, "", known) {}
+    : TomlTable(std::make_shared<const toml::table>(parse_file(file)), file, "", known) {}
 
 TomlTable::TomlTable(const std::filesystem::path& file, std::string_view text, const std::vector<std::string>& known)
-    : TomlTable(Parsed::whole(parse_text(file, text)), file, "", known) {}
+    : TomlTable(std::make_shared<const toml::table>(parse_text(file, text)), file, "", known) {}
 
 TomlTable TomlTable::over_presets(const std::filesystem::path& file, const std::filesystem::path& presets,
                                   const std::vector<std::string>& known, const std::vector<std::string>& joined) {
@@ -101,13 +81,13 @@ TomlTable TomlTable::over_presets(const std::filesystem::path& file, const std::
     if (own != nullptr && shared != nullptr) take_missing(*own, *shared);
   }
   take_missing(content, further);
-  return {Parsed::whole(std::move(content)), file, "", known};
+  return {std::make_shared<const toml::table>(std::move(content)), file, "", known};
 }
 
-TomlTable::TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path file, std::string name,
+TomlTable::TomlTable(std::shared_ptr<const toml::table> table, std::filesystem::path file, std::string name,
                      const std::vector<std::string>& known)
-    : parsed_(std::move(parsed)), file_(std::move(file)), name_(std::move(name)) {
-  for (const auto& [key, node] : *parsed_->table) {
+    : table_(std::move(table)), file_(std::move(file)), name_(std::move(name)) {
+  for (const auto& [key, node] : *table_) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
     throw Error(ErrorKind::usage, line_place(file_, key.source()),
                 fmt::format("unknown key `{:.80}`{}", key.str(), name_.empty() ? "" : " in " + name_),
@@ -115,11 +95,11 @@ TomlTable::TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path
   }
 }
 
-bool TomlTable::has(std::string_view key) const { return parsed_->find(key) != nullptr; }
+bool TomlTable::has(std::string_view key) const { return table_->contains(key); }
 
-bool TomlTable::is_word(std::string_view key) const { return has(key) && parsed_->find(key)->is_string(); }
+bool TomlTable::is_word(std::string_view key) const { return has(key) && table_->get(key)->is_string(); }
 
-bool TomlTable::is_table(std::string_view key) const { return has(key) && parsed_->find(key)->is_table(); }
+bool TomlTable::is_table(std::string_view key) const { return has(key) && table_->get(key)->is_table(); }
 
 std::string TomlTable::full_name(std::string_view key) const {
   return name_.empty() ? fmt::format("`{}`", key) : fmt::format("`{}` in {}", key, name_);
@@ -133,8 +113,8 @@ std::string TomlTable::path_of(std::string_view key) const {
 }
 
 Error TomlTable::error_at(std::string_view key, const std::string& message, const std::string& hint) const {
-  const toml::node* node = parsed_->find(key);
-  return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : parsed_->table->source()),
+  const toml::node* node = table_->get(key);
+  return {ErrorKind::usage, line_place(file_, node != nullptr ? node->source() : table_->source()),
           full_name(key) + " " + message, hint};
 }
 
@@ -149,11 +129,19 @@ double TomlTable::checked(const Node& node, std::string_view key, NumberRange ra
   return *value;
 }
 
+// What `convert` makes of a key's value, which refuses by an empty result; empty too if the key is missing.
+template <class Convert>
+auto TomlTable::read(std::string_view key, const std::string& message, const std::string& hint,
+                     const Convert& convert) const {
+  using Result = std::invoke_result_t<Convert, const toml::node&>;
+  const toml::node* const node = table_->get(key);
+  Result result = node != nullptr ? convert(*node) : Result();
+  if (node != nullptr && !result) throw error_at(key, message, hint);
+  return result;
+}
+
 std::optional<std::string> TomlTable::word(std::string_view key) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  if (!node->is_string()) throw error_at(key, "must be a string", "put it in quotes");
-  return node->value<std::string>();
+  return read(key, "must be a string", "put it in quotes", word_of);
 }
 
 std::optional<std::size_t> TomlTable::choice(std::string_view key, const std::vector<std::string>& choices) const {
@@ -163,16 +151,12 @@ std::optional<std::size_t> TomlTable::choice(std::string_view key, const std::ve
 }
 
 std::optional<bool> TomlTable::boolean(std::string_view key) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  if (!node->is_boolean()) throw error_at(key, "must be true or false", "write it without quotes");
-  return node->value<bool>();
+  return read(key, "must be true or false", "write it without quotes",
+              [](const toml::node& node) { return node.value_exact<bool>(); });
 }
 
 std::optional<double> TomlTable::number(std::string_view key, NumberRange range) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  return checked(*node, key, range);
+  return has(key) ? std::optional(checked(*table_->get(key), key, range)) : std::nullopt;
 }
 
 std::optional<std::int64_t> TomlTable::whole_number(std::string_view key, NumberRange range) const {
@@ -186,58 +170,52 @@ std::optional<std::int64_t> TomlTable::whole_number(std::string_view key, Number
 
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t count,
                                                       NumberRange range) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  const toml::array* array = node->as_array();
-  if (array == nullptr || array->empty() || (count > 0 && array->size() != count)) {
-    throw error_at(key, count > 0 ? fmt::format("must be a list of {} numbers", count) : "must be a list of numbers",
-                   "write it as [1, 2, 3]");
-  }
+  const toml::array* const array =
+      read(key, count > 0 ? fmt::format("must be a list of {} numbers", count) : "must be a list of numbers",
+           "write it as [1, 2, 3]", [&](const toml::node& node) {
+             const toml::array* const list = node.as_array();
+             const bool fits = list != nullptr && !list->empty() && (count == 0 || list->size() == count);
+             return fits ? list : nullptr;
+           });
+  if (array == nullptr) return std::nullopt;
   std::vector<double> values;
   for (const toml::node& element : *array) values.push_back(checked(element, key, range));
   return values;
 }
 
 std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  if (auto values = texts_of(*node, word_of)) return values;
-  throw error_at(key, "must be a list of strings", R"(write it as ["a", "b"])");
+  return read(key, "must be a list of strings", R"(write it as ["a", "b"])",
+              [](const toml::node& node) { return texts_of(node, word_of); });
 }
 
 std::optional<std::vector<std::string>> TomlTable::words_or_numbers(std::string_view key) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  if (auto values = texts_of(*node, word_or_number_of)) return values;
-  throw error_at(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])");
+  return read(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])",
+              [](const toml::node& node) { return texts_of(node, word_or_number_of); });
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key, const std::vector<std::string>& known) const {
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr) return std::nullopt;
-  if (!node->is_table()) throw error_at(key, "must be a table", fmt::format("write [{}]", path_of(key)));
-  return TomlTable(parsed_->with(*node->as_table()), file_, fmt::format("[{}]", path_of(key)), known);
+  const std::string name = fmt::format("[{}]", path_of(key));
+  const toml::table* const found =
+      read(key, "must be a table", "write " + name, [](const toml::node& node) { return node.as_table(); });
+  if (found == nullptr) return std::nullopt;
+  return TomlTable({table_, found}, file_, name, known);
 }
 
 std::vector<std::string> TomlTable::keys_of(std::string_view key) const {
   std::vector<std::string> keys;
-  const toml::node* node = parsed_->find(key);
-  if (node == nullptr || !node->is_table()) return keys;
-  for (const auto& [name, value] : *node->as_table()) keys.emplace_back(name.str());
+  if (!is_table(key)) return keys;
+  for (const auto& [name, value] : *table_->get(key)->as_table()) keys.emplace_back(name.str());
   return keys;
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key, const std::vector<std::string>& known) const {
-  const toml::node* node = parsed_->find(key);
+  const std::string name = fmt::format("[[{}]]", path_of(key));
+  const toml::array* const array = read(key, "must be a list of tables", "write " + name, [](const toml::node& node) {
+    return node.is_array_of_tables() ? node.as_array() : nullptr;
+  });
   std::vector<TomlTable> result;
-  if (node == nullptr) return result;
-  const toml::array* array = node->as_array();
-  if (array == nullptr || !array->is_array_of_tables()) {
-    throw error_at(key, "must be a list of tables", fmt::format("write [[{}]]", path_of(key)));
-  }
-  for (const toml::node& element : *array) {
-    result.push_back(TomlTable(parsed_->with(*element.as_table()), file_, fmt::format("[[{}]]", path_of(key)), known));
-  }
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i)
+    result.push_back(TomlTable({table_, array->get_as<toml::table>(i)}, file_, name, known));
   return result;
 }
 

@@ -12,6 +12,11 @@
 
 #include "renderer/core/error.hpp"
 
+// TOML++ is included by the source alone.
+namespace toml::inline v3 {
+class table;
+}
+
 namespace footprint {
 
 /// An inclusive range of numbers.
@@ -62,19 +67,20 @@ class TomlTable {
   [[nodiscard]] Error error_at(std::string_view key, const std::string& message, const std::string& hint) const;
 
  private:
-  /// The table, and the parsed file around it; defined in the source, which includes TOML++.
-  struct Parsed;
   /// `name` is for messages: "[frame]"; empty for the whole file.
-  TomlTable(std::shared_ptr<const Parsed> parsed, std::filesystem::path file, std::string name,
+  TomlTable(std::shared_ptr<const toml::table> table, std::filesystem::path file, std::string name,
             const std::vector<std::string>& known);
 
+  template <class Convert>
+  [[nodiscard]] auto read(std::string_view key, const std::string& message, const std::string& hint,
+                          const Convert& convert) const;
   template <typename Node>
   [[nodiscard]] double checked(const Node& node, std::string_view key, NumberRange range) const;
   [[nodiscard]] std::string full_name(std::string_view key) const;
   /// As the header of a table in this one is written: "brdf.lobe".
   [[nodiscard]] std::string path_of(std::string_view key) const;
 
-  std::shared_ptr<const Parsed> parsed_;
+  std::shared_ptr<const toml::table> table_;  // shares the whole file
   std::filesystem::path file_;
   std::string name_;
 };

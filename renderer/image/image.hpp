@@ -36,6 +36,8 @@ struct Image {
   [[nodiscard]] bool empty() const { return texels.empty(); }
 
   friend bool operator==(const Image&, const Image&) = default;
+  /// All members, for archives (renderer/core/bytes.hpp).
+  friend void fields(auto& archive, Image& image) { archive(image.width, image.height, image.channels, image.texels); }
 
  private:
   [[nodiscard]] std::size_t offset(int x, int y) const {
@@ -43,6 +45,22 @@ struct Image {
            static_cast<std::size_t>(channels);
   }
 };
+
+/// Calls `visit` (x, y) for each texel of an image, row by row.
+template <class Visit>
+void for_each_texel(const Image& image, const Visit& visit) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) visit(x, y);
+  }
+}
+
+/// An image of the same size, whose texels are `value` until `write` (texel of `from`, its own texel) changes them.
+template <class Write>
+[[nodiscard]] Image mapped(const Image& from, int channels, const Write& write, float value = 0.0F) {
+  Image out(from.width, from.height, channels, value);
+  for_each_texel(from, [&](int x, int y) { write(from.at(x, y), out.at(x, y)); });
+  return out;
+}
 
 template <typename Value>
 [[nodiscard]] Value luminance(Value red, Value green, Value blue) {

@@ -163,7 +163,7 @@ std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::Matr
   return layers;
 }
 
-constexpr std::string_view form = "footprint visibility 2";  // another layout below: another number here
+constexpr std::string_view form = "footprint visibility 3";  // another layout below: another number here
 
 template <class Value>
 void add_values(ContentHash& hash, const std::vector<Value>& values) {
@@ -226,26 +226,18 @@ std::string visibility_key(const Scene& scene, const Environment& environment) {
   return fmt::format("visibility-{}", hash.hex());
 }
 
-// Found by the archives of core/bytes.hpp.
-void fields(auto& archive, Image& image) {
-  auto& [width, height, channels, texels] = image;
-  archive(width, height, channels, texels);
-}
-
 std::vector<std::uint8_t> to_bytes(const VisibilityField& field) {
-  return write_checksummed(form, [&](ChecksummedWriter& out) { out(field); });
+  std::vector<std::uint8_t> bytes;
+  write_checksummed(form, field, appending_to(bytes));
+  return bytes;
 }
 
 std::optional<VisibilityField> visibility_from_bytes(const ByteSource& bytes, const Scene& scene) {
-  std::optional<ChecksummedReader> in = ChecksummedReader::open(bytes, form);
-  if (!in) return {};
-  VisibilityField field;
-  (*in)(field);
+  std::optional<VisibilityField> field = read_checksummed<VisibilityField>(form, bytes);
   const auto vertices = [](const Mesh& mesh) { return mesh.vertices.size(); };
-  const bool fits = std::ranges::equal(field.meshes, scene.meshes, std::ranges::equal_to(),
-                                       &std::vector<VertexVisibility>::size, vertices);
-  if (!in->finished() || !fits) return {};
-  return field;
+  const bool fits = field && std::ranges::equal(field->meshes, scene.meshes, std::ranges::equal_to(),
+                                                &std::vector<VertexVisibility>::size, vertices);
+  return fits ? std::move(field) : std::nullopt;
 }
 
 VisibilityField cached_visibility_field(const Scene& scene, const Environment& environment, const DiskCache* cache,

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -27,38 +26,29 @@ void use_extension(Json& document, const char* name) {
   if (std::ranges::find(used, Json(name)) == used.end()) used.push_back(name);
 }
 
-// The JSON of a file that read_gltf has checked.
-Json json_of(const std::filesystem::path& source) {
-  const auto bytes = read_file_bytes(source, std::numeric_limits<std::int32_t>::max());
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with("glTF")) return Json::parse(text);
-  constexpr std::size_t length_at = 12, json_at = 20;
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + length_at, sizeof(length));
-  return Json::parse(text.substr(json_at, length));
-}
-
 // Writes content of external files, or of the GLB's binary chunk, to new files next to the copy.
 void move_beside(Json& object, const std::string& name, std::span<const std::uint8_t> bytes,
                  const std::filesystem::path& folder) {
-  const bool is_within = object.contains("bufferView") || object.value("uri", "").starts_with("data:");
-  if (is_within) return;
   write_file_atomically(folder / name, bytes);
   object["uri"] = name;
 }
 
-std::string image_extension(std::span<const std::uint8_t> bytes) {
-  const bool is_jpeg = bytes.size() > 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;
-  return is_jpeg ? "jpg" : "png";
+const char* image_extension(std::span<const std::uint8_t> bytes) {
+  return bytes.size() > 2 && bytes[0] == 0xFF && bytes[1] == 0xD8 ? "jpg" : "png";
 }
 
-void move_resources(Json& document, const tinygltf::Model& model, const std::filesystem::path& folder) {
-  for (std::size_t i = 0; i < model.buffers.size(); ++i)
-    move_beside(document["buffers"][i], fmt::format("buffer{}.bin", i), model.buffers[i].data, folder);
-  for (std::size_t i = 0; i < model.images.size(); ++i) {
-    const auto& bytes = model.images[i].image;
-    if (!bytes.empty())
-      move_beside(document["images"][i], fmt::format("image{}.{}", i, image_extension(bytes)), bytes, folder);
+// Files that are missing stay so.
+void move_resources(Json& copy, const GltfDocument& document, const std::filesystem::path& folder) {
+  for (std::size_t i = 0; copy.contains("buffers") && i < copy["buffers"].size(); ++i) {
+    Json& buffer = copy["buffers"][i];
+    if (!document.buffers[i].empty() && !buffer.value("uri", "").starts_with("data:"))
+      move_beside(buffer, fmt::format("buffer{}.bin", i), document.buffers[i], folder);
+  }
+  for (std::size_t i = 0; copy.contains("images") && i < copy["images"].size(); ++i) {
+    const GltfImage image = gltf_image(document, i);
+    if (image.file.empty() || !std::filesystem::is_regular_file(image.file)) continue;
+    const auto bytes = read_file_bytes(image.file, std::numeric_limits<std::int32_t>::max());
+    move_beside(copy["images"][i], fmt::format("image{}.{}", i, image_extension(bytes)), bytes, folder);
   }
 }
 
@@ -84,11 +74,8 @@ Json& material_called(Json& document, const std::string& name, const std::string
 }
 
 PrefilteredTexture four_channels(std::vector<Image> chain) {
-  for (Image& level : chain) {
-    Image opaque(level.width, level.height, 4, 1.0F);
-    for (std::size_t i = 0; i < level.texel_count(); ++i) std::copy_n(&level.texels[3 * i], 3, &opaque.texels[4 * i]);
-    level = std::move(opaque);
-  }
+  const auto copy = [](const auto& in, const auto& out) { std::ranges::copy(in, out.begin()); };
+  for (Image& level : chain) level = mapped(level, 4, copy, 1.0F);
   return make_texture("map", std::move(chain), Storage::unorm8, {});
 }
 
@@ -164,8 +151,9 @@ void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, 
 std::string write_gltf_copy(const std::filesystem::path& source, std::span<const ReplacedMaps> maps,
                             const std::filesystem::path& folder) {
   const GltfDocument document = read_gltf(source);
-  Json json = json_of(source);
-  move_resources(json, document.model, folder);
+  // With the order of its members, and what compressed geometry was decoded from.
+  Json json = Json::parse(gltf_text(read_file_bytes(source, std::numeric_limits<std::int32_t>::max())));
+  move_resources(json, document, folder);
   std::vector<std::string> names;
   for (const ReplacedMaps& each : maps) names.push_back(each.material);
   const std::vector<std::string> stems = distinct_stems(names);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -18,41 +17,32 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
-#include "renderer/scene/gltf/check.hpp"
 
 namespace footprint {
 namespace {
 
+using Json = nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
 constexpr const char* meshopt_extension = "EXT_meshopt_compression";
-
-bool is_fallback(const nlohmann::json& buffer) {
-  const auto extensions = buffer.find("extensions");
-  if (buffer.contains("uri") || extensions == buffer.end() || !extensions->is_object()) return false;
-  const auto extension = extensions->find(meshopt_extension);
-  return extension != extensions->end() && extension->is_object() && extension->contains("fallback");
-}
-
-bool is_compressed(const nlohmann::json& view) {
-  const auto extensions = view.find("extensions");
-  return extensions != view.end() && extensions->contains(meshopt_extension);
-}
+constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 
 // The parameters of a compressed buffer view.
 struct Encoding {
   std::size_t count = 0, stride = 0;
   std::string mode, filter;
-  const unsigned char* data = nullptr;
+  const std::uint8_t* data = nullptr;
   std::size_t size = 0;
 };
 
-Encoding encoding_of(const tinygltf::Model& model, const nlohmann::json& extension) {
+Encoding encoding_of(const GltfDocument& document, const Json& extension) {
   Encoding out{.count = extension["count"].get<std::size_t>(),
                .stride = extension["byteStride"].get<std::size_t>(),
                .mode = extension["mode"].get<std::string>(),
                .filter = extension.value("filter", "NONE"),
                .data = nullptr,
                .size = extension["byteLength"].get<std::size_t>()};
-  const auto& bytes = model.buffers[extension["buffer"].get<std::size_t>()].data;
+  const Bytes& bytes = document.buffers[extension["buffer"].get<std::size_t>()];
   const auto offset = extension.value("byteOffset", std::size_t{0});
   if (offset > bytes.size() || out.size > bytes.size() - offset)
     refuse_gltf(meshopt_extension, "its data does not lie within its buffer");
@@ -86,10 +76,10 @@ void check(const Encoding& encoding, std::size_t length) {
   }
 }
 
-std::vector<unsigned char> decoded(const Encoding& encoding) {
+Bytes decoded(const Encoding& encoding) {
   const auto& [count, stride, mode, filter, data, size] = encoding;
   require_memory(count * stride, "decoding a compressed buffer view", "use a smaller model, or free memory");
-  std::vector<unsigned char> out(count * stride);
+  Bytes out(count * stride);
   const int failed = mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(out.data(), count, stride, data, size)
                      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(out.data(), count, stride, data, size)
                                            : meshopt_decodeIndexSequence(out.data(), count, stride, data, size);
@@ -100,17 +90,9 @@ std::vector<unsigned char> decoded(const Encoding& encoding) {
   return out;
 }
 
-constexpr const char* draco_extension = "KHR_draco_mesh_compression";
-
-using Bytes = std::vector<unsigned char>;
-
-std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, int view_index) {
-  const auto& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-  const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
-    refuse_gltf(draco_extension, "its data does not lie within its buffer");
+std::unique_ptr<draco::Mesh> decoded(const GltfView& view) {
   draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength);
+  buffer.Init(reinterpret_cast<const char*>(view.bytes.data()), view.bytes.size());
   draco::Decoder decoder;
   try {
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
@@ -124,19 +106,12 @@ std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, int view_inde
   }
 }
 
-// Appends a buffer with one view of all of it; gives the view's index.
-int add_view(tinygltf::Model& model, Bytes bytes) {
-  tinygltf::BufferView view;
-  view.buffer = static_cast<int>(model.buffers.size());
-  view.byteLength = bytes.size();
-  model.buffers.emplace_back().data = std::move(bytes);
-  model.bufferViews.push_back(std::move(view));
-  return static_cast<int>(model.bufferViews.size()) - 1;
-}
-
-void point_at(tinygltf::Accessor& accessor, int view) {
-  accessor.bufferView = view;
-  accessor.byteOffset = 0;
+// Points an accessor at bytes of its own.
+void point_at(GltfDocument& document, Json& accessor, Bytes bytes) {
+  document.buffers.push_back(std::move(bytes));
+  accessor["bufferView"] = document.views.size();
+  accessor["byteOffset"] = 0;
+  document.views.push_back({document.buffers.back()});
 }
 
 // Whether the values of all points are within the attribute's buffer.
@@ -165,32 +140,34 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
   return bytes;
 }
 
-void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::string& name, int id, int accessor) {
-  auto& target = model.accessors[static_cast<std::size_t>(accessor)];
-  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+void take_attribute(GltfDocument& document, const draco::Mesh& mesh, const std::string& name, std::uint32_t id,
+                    std::size_t accessor) {
+  Json& target = document.json["accessors"][accessor];
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
   if (attribute == nullptr) refuse_gltf(draco_extension, fmt::format("{}: its data has no attribute {}", name, id));
-  if (target.count != mesh.num_points())
+  if (target["count"] != mesh.num_points())
     refuse_gltf(draco_extension, fmt::format("{}: {} elements are decoded, accessors[{}] has {}", name,
-                                             mesh.num_points(), accessor, target.count));
-  const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(target.type));
-  if (attribute->num_components() != components)
-    refuse_gltf(draco_extension, fmt::format("{}: {} components are decoded, accessors[{}] has {}", name,
-                                             attribute->num_components(), accessor, components));
+                                             mesh.num_points(), accessor, target["count"].get<std::uint64_t>()));
+  const std::string decoded_type =
+      attribute->num_components() == 1 ? "SCALAR" : fmt::format("VEC{}", attribute->num_components());
+  if (target["type"] != decoded_type)
+    refuse_gltf(draco_extension, fmt::format("{}: {} components are decoded, accessors[{}] is {}", name,
+                                             attribute->num_components(), accessor, target["type"].get<std::string>()));
   if (!is_whole(*attribute, mesh.num_points()))
     refuse_gltf(draco_extension, fmt::format("{}: its data is damaged", name));
-  if (!is_attribute_type(target.componentType))
-    refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", target.componentType));
-  point_at(target, add_view(model, visit_component(target.componentType, [&]<class T>(T /*kind*/) {
-                              return values_of<T>(*attribute, mesh.num_points());
-                            })));
+  const int type = target["componentType"].get<int>();
+  if (!is_attribute_type(type))
+    refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", type));
+  point_at(document, target,
+           visit_component(type, [&]<class T>(T /*kind*/) { return values_of<T>(*attribute, mesh.num_points()); }));
 }
 
-void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor) {
-  auto& target = model.accessors[static_cast<std::size_t>(accessor)];
+void take_indices(GltfDocument& document, const draco::Mesh& mesh, std::size_t accessor) {
+  Json& target = document.json["accessors"][accessor];
   const std::uint64_t count = std::uint64_t{3} * mesh.num_faces();
-  if (target.count != count)
-    refuse_gltf(draco_extension,
-                fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor, target.count));
+  if (target["count"] != count)
+    refuse_gltf(draco_extension, fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor,
+                                             target["count"].get<std::uint64_t>()));
   Bytes bytes(count * sizeof(std::uint32_t));
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -198,93 +175,61 @@ void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, int accessor)
       std::memcpy(&bytes[(3 * std::size_t{i} + corner) * sizeof index], &index, sizeof index);
     }
   }
-  target.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-  point_at(target, add_view(model, std::move(bytes)));
+  target["componentType"] = gltf_unsigned_int;
+  point_at(document, target, std::move(bytes));
 }
 
-void decode_primitive(tinygltf::Model& model, const tinygltf::Primitive& primitive, const nlohmann::json& extension) {
-  const auto position = primitive.attributes.find("POSITION");
-  if (position == primitive.attributes.end() || primitive.indices < 0)
+void decode_primitive(GltfDocument& document, const Json& primitive, const Json& extension) {
+  const Json& attributes = primitive["attributes"];
+  if (!attributes.contains("POSITION") || !primitive.contains("indices"))
     refuse_gltf(draco_extension, "a compressed primitive needs accessors for POSITION and indices");
-  if (model.accessors[static_cast<std::size_t>(position->second)].bufferView >= 0) return;
-  if (primitive.mode != TINYGLTF_MODE_TRIANGLES) refuse_gltf(draco_extension, "only triangles are read, no strips");
-  const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension["bufferView"].get<int>());
+  if (document.json["accessors"][attributes["POSITION"].get<std::size_t>()].contains("bufferView")) return;
+  if (primitive.value("mode", 4) != 4) refuse_gltf(draco_extension, "only triangles are read, no strips");
+  const std::unique_ptr<draco::Mesh> mesh = decoded(document.views[extension["bufferView"].get<std::size_t>()]);
   for (const auto& [name, id] : extension["attributes"].items()) {
-    const auto accessor = primitive.attributes.find(name);
-    if (accessor != primitive.attributes.end()) take_attribute(model, *mesh, name, id.get<int>(), accessor->second);
+    if (attributes.contains(name))
+      take_attribute(document, *mesh, name, id.get<std::uint32_t>(), attributes[name].get<std::size_t>());
   }
-  take_indices(model, *mesh, primitive.indices);
+  take_indices(document, *mesh, primitive["indices"].get<std::size_t>());
 }
 
 }  // namespace
 
-bool fill_fallback_buffers(nlohmann::json& document) {
-  const nlohmann::json buffers = document.value("buffers", nlohmann::json::array());
-  if (std::ranges::none_of(buffers, is_fallback)) return false;
-  const nlohmann::json views = document.value("bufferViews", nlohmann::json::array());
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto buffer = views[i]["buffer"].get<std::size_t>();
-    if (is_fallback(buffers[buffer]) && !is_compressed(views[i]))
-      refuse_gltf(fmt::format("bufferViews[{}]", i),
-                  fmt::format("is not compressed, and buffers[{}] has no bytes of its own", buffer));
-  }
-  for (const auto& image : document.value("images", nlohmann::json::array())) {
-    if (image.contains("bufferView") && is_compressed(views[image["bufferView"].get<std::size_t>()]))
-      refuse_gltf(meshopt_extension, "an image is in a compressed buffer view");
-  }
-  for (auto& buffer : document["buffers"]) {
-    if (!is_fallback(buffer)) continue;
-    buffer["uri"] = "data:application/octet-stream;base64,AA==";
-    buffer["byteLength"] = 1;
-  }
-  return true;
+bool is_fallback(const Json& buffer) {
+  const Json::json_pointer extension("/extensions/EXT_meshopt_compression");
+  return !buffer.contains("uri") && buffer.contains(extension) && buffer[extension].contains("fallback");
+}
+
+bool is_compressed(const Json& view) {
+  return view.contains(Json::json_pointer("/extensions/EXT_meshopt_compression"));
 }
 
 void decode_meshopt(GltfDocument& document) {
-  const nlohmann::json views = document.json.value("bufferViews", nlohmann::json::array());
+  const Json views = document.json.value("bufferViews", Json::array());
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!is_compressed(views[i])) continue;
     try {
-      tinygltf::BufferView& view = document.model.bufferViews[i];
-      const Encoding encoding = encoding_of(document.model, views[i]["extensions"][meshopt_extension]);
-      check(encoding, view.byteLength);
-      std::vector<unsigned char> bytes = decoded(encoding);
-      view.buffer = static_cast<int>(document.model.buffers.size());
-      view.byteOffset = 0;
-      document.model.buffers.emplace_back().data = std::move(bytes);
+      const Encoding encoding = encoding_of(document, views[i]["extensions"][meshopt_extension]);
+      check(encoding, views[i]["byteLength"].get<std::size_t>());
+      document.buffers.push_back(decoded(encoding));
+      document.views[i].bytes = document.buffers.back();
     } catch (const Error& error) {
       throw error.within(fmt::format("bufferViews[{}]", i));
     }
   }
 }
 
-bool fill_draco_indices(nlohmann::json& document) {
-  bool filled = false;
-  for (const auto& mesh : document.value("meshes", nlohmann::json::array())) {
-    for (const auto& primitive : mesh["primitives"]) {
-      const auto extensions = primitive.find("extensions");
-      if (extensions == primitive.end() || !extensions->contains(draco_extension) || !primitive.contains("indices"))
-        continue;
-      nlohmann::json& accessor = document["accessors"][primitive["indices"].get<std::size_t>()];
-      if (accessor.contains("bufferView")) continue;
-      accessor["bufferView"] = (*extensions)[draco_extension]["bufferView"];
-      filled = true;
-    }
-  }
-  return filled;
-}
-
 void decode_draco(GltfDocument& document) {
-  const nlohmann::json::json_pointer draco = nlohmann::json::json_pointer("/extensions") / draco_extension;
-  tinygltf::Model& model = document.model;
-  for (std::size_t m = 0; m < model.meshes.size(); ++m) {
-    for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
-      const nlohmann::json& primitive = document.json["meshes"][m]["primitives"][p];
+  const Json::json_pointer draco = Json::json_pointer("/extensions") / draco_extension;
+  const Json meshes = document.json.value("meshes", Json::array());
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+      const Json& primitive = meshes[m]["primitives"][p];
       if (!primitive.contains(draco)) continue;
       try {
-        decode_primitive(model, model.meshes[m].primitives[p], primitive[draco]);
+        decode_primitive(document, primitive, primitive[draco]);
       } catch (const Error& error) {
-        throw error.within(fmt::format("mesh {} `{:.80}`, primitive {}", m, model.meshes[m].name, p));
+        throw error.within(fmt::format("mesh {} `{:.80}`, primitive {}", m, meshes[m].value("name", ""), p));
       }
     }
   }

@@ -9,13 +9,11 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
-#include "renderer/scene/gltf/check.hpp"
 #include "renderer/scene/model.hpp"
 
 namespace footprint {
@@ -69,33 +67,21 @@ void apply_transform(const Json& extension, TextureCoordinates& coordinates) {
   coordinates.set = extension.value("texCoord", coordinates.set);
 }
 
-Wrap wrap_mode(int mode, const std::string& place) {
-  switch (mode) {
-    case TINYGLTF_TEXTURE_WRAP_REPEAT:
-      return Wrap::repeat;
-    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-      return Wrap::mirrored_repeat;
-    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-      return Wrap::clamp_to_edge;
-    default:
-      refuse_gltf(place, fmt::format("{} is not a wrap mode of glTF 2.0", mode));
-  }
-}
-
-std::string image_name(const tinygltf::Image& image, int index) {
-  if (!image.uri.empty()) return image.uri;
-  return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
+Wrap wrap_mode(const Json& sampler, const char* key, const std::string& place) {
+  constexpr int repeat = 10497, mirrored_repeat = 33648, clamp_to_edge = 33071;
+  const int mode = sampler.value(key, repeat);
+  if (mode == repeat) return Wrap::repeat;
+  if (mode == mirrored_repeat) return Wrap::mirrored_repeat;
+  if (mode != clamp_to_edge) refuse_gltf(place, fmt::format("{} is not a wrap mode of glTF 2.0", mode));
+  return Wrap::clamp_to_edge;
 }
 
 float largest_channel(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
 
 // Roughness is 1 - glossiness, and metalness 0.
 Image decode_glossiness(const Image& stored, float glossiness_factor) {
-  const Image rgba = to_rgba(stored);
-  Image map(stored.width, stored.height, 2, 0.0F);
-  for (std::size_t i = 0; i < map.texel_count(); ++i)
-    map.texels[2 * i] = 1.0F - glossiness_factor * rgba.texels[4 * i + 3];
-  return map;
+  return mapped(to_rgba(stored), 2,
+                [=](const auto& in, const auto& out) { out[0] = 1.0F - glossiness_factor * in[3]; });
 }
 
 struct StretchTexture {
@@ -134,7 +120,7 @@ float mean_rest(const Image& specular, const glm::vec3& factor) {
 // A texture that a material refers to.
 struct Texture {
   TextureMap map;  // without texels
-  int image;
+  std::size_t image;
 };
 
 class Converter {
@@ -226,7 +212,7 @@ class Converter {
     const std::optional<Texture> color = texture(source, diffuse);
     if (!color) material.base_color_map = material.specular_map;
     material.base_color_map->image =
-        diffuse_beside(color ? color->image : -1, texture(source, specular)->image, material.dielectric_specular);
+        diffuse_beside(color, texture(source, specular)->image, material.dielectric_specular);
   }
 
   // KHR_materials_clearcoat: weight 0, the default, means no coat.
@@ -277,9 +263,9 @@ class Converter {
                                          : " has no PNG or JPEG image and is left out"));
       return std::nullopt;
     }
-    Texture out{.map = {}, .image = source["source"].get<int>()};
+    Texture out{.map = {}, .image = source["source"].get<std::size_t>()};
     TextureCoordinates& coordinates = out.map.coordinates;
-    out.map.name = image_name(document_.model.images[static_cast<std::size_t>(out.image)], out.image);
+    out.map.name = gltf_image_name(document_, out.image);
     coordinates.set = reference.value("texCoord", 0);
     if (const Pointer transform("/extensions/KHR_texture_transform"); reference.contains(transform))
       apply_transform(reference[transform], coordinates);
@@ -291,26 +277,22 @@ class Converter {
     if (source.contains("sampler")) {
       const auto number = source["sampler"].get<std::size_t>();
       const Json& sampler = document_.json["samplers"][number];
-      const auto mode = [&](const char* key) {
-        return wrap_mode(sampler.value(key, TINYGLTF_TEXTURE_WRAP_REPEAT), fmt::format("samplers[{}]", number));
-      };
-      coordinates.wrap = {mode("wrapS"), mode("wrapT")};
+      const std::string sampler_place = fmt::format("samplers[{}]", number);
+      coordinates.wrap = {wrap_mode(sampler, "wrapS", sampler_place), wrap_mode(sampler, "wrapT", sampler_place)};
     }
     return out;
   }
 
-  [[nodiscard]] Image stored(int index, Transfer transfer) const {
-    const auto& image = document_.model.images[static_cast<std::size_t>(index)];
-    // tinygltf could not read the file. Reading it again gives the reason.
-    return image.image.empty()
-               ? read_image(document_.file.parent_path() / image.uri, transfer)
-               : read_image(std::span<const std::uint8_t>{image.image}, image_name(image, index), transfer);
+  [[nodiscard]] Image stored(std::size_t index, Transfer transfer) const {
+    const GltfImage image = gltf_image(document_, index);
+    return image.file.empty() ? read_image(image.bytes, gltf_image_name(document_, index), transfer)
+                              : read_image(image.file, transfer);
   }
 
-  // The texels of an image, made once for each `use`.
+  // The texels of a use of an image, made once.
   template <class Make>
-  MapTexels cached(int image, const std::string& use, const Make& make) {
-    MapTexels& texels = maps_[fmt::format("{} {}", image, use)];
+  MapTexels cached(const std::string& use, const Make& make) {
+    MapTexels& texels = maps_[use];
     if (!texels) texels = make();
     return texels;
   }
@@ -320,8 +302,8 @@ class Converter {
                                 const Decode& decode) {
     std::optional<Texture> found = texture(material, member);
     if (!found) return std::nullopt;
-    found->map.image =
-        cached(found->image, use, [&] { return MapTexels::packed(decode(stored(found->image, transfer))); });
+    found->map.image = cached(fmt::format("{} {}", found->image, use),
+                              [&] { return MapTexels::packed(decode(stored(found->image, transfer))); });
     return std::move(found->map);
   }
 
@@ -329,7 +311,7 @@ class Converter {
     std::optional<Texture> found = texture(material, member);
     if (!found) return std::nullopt;
     const double scale = checked(material.value(member / "scale", 1.0), -1e4, 1e4, member.back() + ".scale");
-    found->map.image = cached(found->image, fmt::format("normal {}", scale), [&] {
+    found->map.image = cached(fmt::format("{} normal {}", found->image, scale), [&] {
       const auto decode = [scale](const Image& texels) { return decode_normal_map(texels, scale); };
       std::vector<std::string> faults;
       MapTexels texels = stored_normals(stored(found->image, Transfer::linear), decode, found->map.name, faults);
@@ -339,21 +321,20 @@ class Converter {
     return std::move(found->map);
   }
 
-  // diffuse (1 - max specular) of KHR_materials_pbrSpecularGlossiness. diffuse: -1 is white.
-  MapTexels diffuse_beside(int diffuse, int specular, const glm::vec3& factor) {
-    return cached(diffuse, fmt::format("beside {} {} {} {}", specular, factor.r, factor.g, factor.b), [&] {
-      const Image color = diffuse >= 0 ? to_rgba(stored(diffuse, Transfer::srgb)) : Image(1, 1, 4, 1.0F);
+  // diffuse (1 - max specular) of KHR_materials_pbrSpecularGlossiness. diffuse: none is white.
+  MapTexels diffuse_beside(const std::optional<Texture>& diffuse, std::size_t specular, const glm::vec3& factor) {
+    const std::string images = diffuse ? fmt::format("{} {}", diffuse->image, specular) : fmt::format("{}", specular);
+    return cached(fmt::format("beside {} {} {} {}", images, factor.r, factor.g, factor.b), [&] {
+      const Image color = diffuse ? to_rgba(stored(diffuse->image, Transfer::srgb)) : Image(1, 1, 4, 1.0F);
       const Image reflected = to_rgb(stored(specular, Transfer::srgb));
       Image out(std::max(color.width, reflected.width), std::max(color.height, reflected.height), 4);
-      for (int y = 0; y < out.height; ++y) {
-        for (int x = 0; x < out.width; ++x) {
-          const auto albedo = texel_under(color, x, y, out.width, out.height);
-          const auto f0 = texel_under(reflected, x, y, out.width, out.height);
-          const float rest = 1.0F - largest_channel(factor * glm::make_vec3(f0.data()));
-          for (std::size_t c = 0; c < 3; ++c) out.at(x, y)[c] = albedo[c] * rest;
-          out.at(x, y)[3] = albedo[3];
-        }
-      }
+      for_each_texel(out, [&](int x, int y) {
+        const auto albedo = texel_under(color, x, y, out.width, out.height);
+        const auto f0 = texel_under(reflected, x, y, out.width, out.height);
+        const float rest = 1.0F - largest_channel(factor * glm::make_vec3(f0.data()));
+        for (std::size_t c = 0; c < 3; ++c) out.at(x, y)[c] = albedo[c] * rest;
+        out.at(x, y)[3] = albedo[3];
+      });
       return MapTexels::packed(out);
     });
   }
@@ -388,9 +369,8 @@ std::uint64_t decoded_map_bytes(const GltfDocument& document) {
       if (!source.contains("source")) continue;
       const auto index = source["source"].get<std::size_t>();
       if (!counted.emplace(index, name).second) continue;
-      const auto& image = document.model.images[index];
-      const std::uint64_t texels = image.image.empty() ? texels_in_header(document.file.parent_path() / image.uri)
-                                                       : texels_in_header(std::span<const std::uint8_t>{image.image});
+      const GltfImage image = gltf_image(document, index);
+      const std::uint64_t texels = image.file.empty() ? texels_in_header(image.bytes) : texels_in_header(image.file);
       bytes += texels * channels * sizeof(float);
     }
   }

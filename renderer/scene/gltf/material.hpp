@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/image_io.hpp"
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/material.hpp"
 

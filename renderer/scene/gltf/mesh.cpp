@@ -7,27 +7,28 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
-#include <map>
 #include <numeric>
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/gltf/check.hpp"
-#include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/model.hpp"
 
 namespace footprint {
 namespace {
 
+using Json = nlohmann::json;
+
+constexpr int mode_triangles = 4, mode_strip = 5, mode_fan = 6;  // before them points and lines
+
 /// A primitive during conversion; `has_*` are attributes of the file.
 struct Builder {
-  const tinygltf::Model& model;
-  const tinygltf::Primitive& primitive;
+  const GltfDocument& document;
+  const Json& primitive;
   std::vector<std::string>& warnings;
   std::string place;  ///< for warnings
 
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;
+  std::vector<Vertex> vertices{};
+  std::vector<std::uint32_t> indices{};
   bool has_normals = false, has_tangents = false;
 
   void warn(std::size_t count, const char* what) const {
@@ -36,11 +37,10 @@ struct Builder {
 };
 
 /// The values of one of some attributes; none if it is missing. All attributes have as many elements as POSITION.
-std::vector<float> read_attribute(const Builder& builder, const std::map<std::string, int>& attributes,
-                                  const std::string& name, int components) {
-  const auto found = attributes.find(name);
-  if (found == attributes.end()) return {};
-  auto values = read_floats(builder.model, found->second, components);
+std::vector<float> read_attribute(const Builder& builder, const Json& attributes, const std::string& name,
+                                  int components) {
+  if (!attributes.contains(name)) return {};
+  auto values = read_floats(builder.document, attributes[name].get<std::size_t>(), components);
   const std::size_t count = values.size() / static_cast<std::size_t>(components);
   if (!builder.vertices.empty() && count != builder.vertices.size()) {
     refuse_gltf(name, fmt::format("has {} elements, POSITION has {}", count, builder.vertices.size()));
@@ -49,7 +49,7 @@ std::vector<float> read_attribute(const Builder& builder, const std::map<std::st
 }
 
 std::vector<float> read_attribute(const Builder& builder, const std::string& name, int components) {
-  return read_attribute(builder, builder.primitive.attributes, name, components);
+  return read_attribute(builder, builder.primitive["attributes"], name, components);
 }
 
 void read_positions(Builder& builder) {
@@ -90,19 +90,18 @@ bool read_texture_coordinates(Builder& builder, const std::string& name, glm::ve
 }
 
 /// The components of COLOR_0; glTF 2.0 has RGB and RGBA, floats or normalised integers.
-int color_components(const Builder& builder, int index) {
-  const auto& accessor = builder.model.accessors[static_cast<std::size_t>(index)];
-  if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized) {
+int color_components(const Json& accessor) {
+  if (accessor["componentType"] != gltf_float && !accessor.value("normalized", false)) {
     refuse_gltf("COLOR_0", "its integers are not normalised, so their meaning is undefined");
   }
-  return accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+  return accessor["type"] == "VEC3" ? 3 : 4;
 }
 
 /// Clamps each component to 0 to 1 (glTF 2.0, section 3.7.2.1). A colour that is not finite becomes white.
 void read_colors(Builder& builder) {
-  const auto found = builder.primitive.attributes.find("COLOR_0");
-  if (found == builder.primitive.attributes.end()) return;
-  const int components = color_components(builder, found->second);
+  const Json& attributes = builder.primitive["attributes"];
+  if (!attributes.contains("COLOR_0")) return;
+  const int components = color_components(builder.document.json["accessors"][attributes["COLOR_0"].get<std::size_t>()]);
   const auto values = read_attribute(builder, "COLOR_0", components);
   std::size_t replaced = 0;
   for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
@@ -130,27 +129,29 @@ void check_map_coordinates(const Builder& builder, const Material& material, boo
 void read_triangles(Builder& builder) {
   std::vector<std::uint32_t> list(builder.vertices.size());
   std::iota(list.begin(), list.end(), 0U);
-  if (builder.primitive.indices >= 0) list = read_indices(builder.model, builder.primitive.indices);
+  if (builder.primitive.contains("indices"))
+    list = read_indices(builder.document, builder.primitive["indices"].get<std::size_t>());
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (list[i] >= builder.vertices.size())
       refuse_gltf(fmt::format("index {}", i), fmt::format("names vertex {} of {}", list[i], builder.vertices.size()));
   }
-  const int mode = builder.primitive.mode;
-  const Topology topology = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? Topology::strip
-                            : mode == TINYGLTF_MODE_TRIANGLE_FAN ? Topology::fan
-                                                                 : Topology::triangles;
+  const int mode = builder.primitive.value("mode", mode_triangles);
+  const Topology topology = mode == mode_strip ? Topology::strip
+                            : mode == mode_fan ? Topology::fan
+                                               : Topology::triangles;
   builder.indices = triangle_list(list, topology);
   if (topology == Topology::triangles) builder.warn(list.size() % 3, "indices left over that make no triangle");
 }
 
 /// Adds the morph targets (glTF 2.0, section 3.7.2.2).
 void morph(Builder& builder, const std::vector<double>& weights) {
-  const std::size_t count = std::min(builder.primitive.targets.size(), weights.size());
+  const Json targets = builder.primitive.value("targets", Json::array());
+  const std::size_t count = std::min(targets.size(), weights.size());
   for (std::size_t t = 0; t < count; ++t) {
     const auto weight = static_cast<float>(weights[t]);
     if (weight == 0.0F) continue;
     const auto add = [&](const std::string& name, auto to) {
-      const std::vector<float> values = read_attribute(builder, builder.primitive.targets[t], name, 3);
+      const std::vector<float> values = read_attribute(builder, targets[t], name, 3);
       for (std::size_t i = 0; i < values.size() / 3; ++i)
         to(builder.vertices[i], weight * glm::make_vec3(&values[3 * i]));
     };
@@ -247,10 +248,9 @@ void complete_frames(Builder& builder, const Material& material) {
 }
 
 std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Material& material) {
-  const int mode = builder.primitive.mode;
-  if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
-    refuse_gltf("mode", fmt::format("{} is none of 0 to 6", mode));
-  if (mode < TINYGLTF_MODE_TRIANGLES) {
+  const int mode = builder.primitive.value("mode", mode_triangles);
+  if (mode > mode_fan) refuse_gltf("mode", fmt::format("{} is none of 0 to 6", mode));
+  if (mode < mode_triangles) {
     add_once(builder.warnings, "points and lines are left out");
     return std::nullopt;
   }
@@ -265,7 +265,7 @@ std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Materi
   const bool has_set1 = read_texture_coordinates(builder, "TEXCOORD_1", &Vertex::uv1);
   check_map_coordinates(builder, material, has_set0, has_set1);
   read_colors(builder);
-  if (builder.primitive.attributes.contains("COLOR_1")) {
+  if (builder.primitive["attributes"].contains("COLOR_1")) {
     add_once(builder.warnings, "vertex colours beyond the first set are left out");
   }
   read_triangles(builder);
@@ -278,13 +278,12 @@ std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Materi
 
 }  // namespace
 
-std::optional<Mesh> convert_primitive(const tinygltf::Model& model, int mesh_index, int primitive_index,
+std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
                                       const MeshPose& pose, const Material& material,
                                       std::vector<std::string>& warnings) {
-  const auto& mesh = model.meshes[static_cast<std::size_t>(mesh_index)];
-  Builder builder{model,    mesh.primitives[static_cast<std::size_t>(primitive_index)],
-                  warnings, fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.name, primitive_index),
-                  {},       {}};
+  const Json& mesh = document.json["meshes"][mesh_index];
+  Builder builder{document, mesh["primitives"][primitive_index], warnings,
+                  fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.value("name", ""), primitive_index)};
   try {
     return convert(builder, pose, material);
   } catch (const Error& error) {

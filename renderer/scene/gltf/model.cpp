@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -13,13 +14,14 @@
 #include "renderer/core/memory.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
-#include "renderer/scene/gltf/check.hpp"
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/gltf/material.hpp"
 #include "renderer/scene/gltf/pose.hpp"
 
 namespace footprint {
 namespace {
+
+using Json = nlohmann::json;
 
 constexpr double largest = 1e15;
 constexpr double smallest_znear = 1e-18;  // over `largest` it still is a 32-bit float's normal number
@@ -53,72 +55,74 @@ glm::mat4 rigid_part(const glm::dmat4& world, const std::string& place) {
                               glm::dvec4{glm::dvec3{position_of(world, place)}, 1.0}}};
 }
 
-Camera convert_perspective(const tinygltf::PerspectiveCamera& source, const std::string& place) {
-  require(source.yfov > 0.0 && source.yfov < std::numbers::pi, place, "yfov must lie between 0 and pi");
-  require(source.znear >= smallest_znear && source.znear < largest, place,
+Camera convert_perspective(const Json& source, const std::string& place) {
+  const double yfov = source.value("yfov", 0.0), znear = source.value("znear", 0.0), zfar = source.value("zfar", 0.0),
+               aspect = source.value("aspectRatio", 0.0);  // 0: not given
+  require(yfov > 0.0 && yfov < std::numbers::pi, place, "yfov must lie between 0 and pi");
+  require(znear >= smallest_znear && znear < largest, place,
           fmt::format("znear must be at least {:g} m", smallest_znear));
-  require(source.zfar == 0.0 || (source.zfar > source.znear && source.zfar < largest), place,
-          "zfar must be beyond znear");
-  require(source.aspectRatio == 0.0 || (source.aspectRatio > 1e-4 && source.aspectRatio < 1e4), place,
-          "aspectRatio must be within 1e-4 to 1e4");
+  require(zfar == 0.0 || (zfar > znear && zfar < largest), place, "zfar must be beyond znear");
+  require(aspect == 0.0 || (aspect > 1e-4 && aspect < 1e4), place, "aspectRatio must be within 1e-4 to 1e4");
   Camera camera;
-  camera.yfov = static_cast<float>(source.yfov);
-  camera.znear = static_cast<float>(source.znear);
-  if (source.zfar != 0.0) camera.zfar = static_cast<float>(source.zfar);  // tinygltf's word for "not given"
-  if (source.aspectRatio != 0.0) camera.aspect = static_cast<float>(source.aspectRatio);
+  camera.yfov = static_cast<float>(yfov);
+  camera.znear = static_cast<float>(znear);
+  if (zfar != 0.0) camera.zfar = static_cast<float>(zfar);
+  if (aspect != 0.0) camera.aspect = static_cast<float>(aspect);
   return camera;
 }
 
-Camera convert_orthographic(const tinygltf::OrthographicCamera& source, const std::string& place) {
-  require(std::abs(source.xmag) > 0.0 && std::abs(source.xmag) < largest && std::abs(source.ymag) > 0.0 &&
-              std::abs(source.ymag) < largest,
-          place, "xmag and ymag must not be 0");
-  require(source.znear >= 0.0 && source.zfar > source.znear && source.zfar < largest, place,
-          "zfar must be beyond znear");
+Camera convert_orthographic(const Json& source, const std::string& place) {
+  const double xmag = std::abs(source.value("xmag", 0.0)), ymag = std::abs(source.value("ymag", 0.0)),
+               znear = source.value("znear", 0.0), zfar = source.value("zfar", 0.0);
+  require(xmag > 0.0 && xmag < largest && ymag > 0.0 && ymag < largest, place, "xmag and ymag must not be 0");
+  require(znear >= 0.0 && zfar > znear && zfar < largest, place, "zfar must be beyond znear");
   Camera camera;
   camera.orthographic = true;
-  camera.ymag = static_cast<float>(std::abs(source.ymag));
-  camera.znear = static_cast<float>(source.znear);
-  camera.zfar = static_cast<float>(source.zfar);
-  camera.aspect = static_cast<float>(std::abs(source.xmag / source.ymag));
+  camera.ymag = static_cast<float>(ymag);
+  camera.znear = static_cast<float>(znear);
+  camera.zfar = static_cast<float>(zfar);
+  camera.aspect = static_cast<float>(xmag / ymag);
   return camera;
 }
 
-Camera convert_camera(const tinygltf::Model& model, int index, const glm::dmat4& world) {
-  const auto& source = model.cameras[static_cast<std::size_t>(index)];
-  const std::string place = fmt::format("cameras[{}]", index);
-  Camera camera = source.type == "perspective" ? convert_perspective(source.perspective, place)
-                                               : convert_orthographic(source.orthographic, place);
+Camera convert_camera(const Json& document, std::size_t index, const glm::dmat4& world) {
+  const Json& source = document["cameras"][index];
+  const std::string place = fmt::format("cameras[{}]", index), type = source["type"];
+  require(type == "perspective" || type == "orthographic", place,
+          fmt::format("`{:.40}` is none of perspective, orthographic", type));
+  const Json projection = source.value(type, Json::object());
+  Camera camera =
+      type == "perspective" ? convert_perspective(projection, place) : convert_orthographic(projection, place);
   camera.world = rigid_part(world, place);
   return camera;
 }
 
-Light convert_light(const tinygltf::Model& model, int index, const glm::dmat4& world) {
-  const auto& source = model.lights[static_cast<std::size_t>(index)];
+Light convert_light(const Json& source, std::size_t index, const glm::dmat4& world) {
   const std::string place = fmt::format("KHR_lights_punctual.lights[{}]", index);
-  require(source.intensity >= 0.0 && source.intensity < largest, place, "intensity must not be negative");
-  require(source.range >= 0.0 && source.range < largest, place, "range must not be negative");
-  glm::dvec3 color{1.0};
-  for (std::size_t c = 0; c < source.color.size() && c < 3; ++c) {
-    require(source.color[c] >= 0.0 && source.color[c] < 1e6, place, "color must not be negative");
-    color[static_cast<int>(c)] = source.color[c];
-  }
-  const glm::vec3 power{color * source.intensity};
-  if (source.type == "directional") return DirectionalLight{glm::vec3{view_direction(world, place)}, power};
+  const double intensity = source.value("intensity", 1.0), range = source.value("range", 0.0);
+  require(intensity >= 0.0 && intensity < largest, place, "intensity must not be negative");
+  require(range >= 0.0 && range < largest, place, "range must not be negative");
+  const auto values = source.value("color", std::vector(3, 1.0));
+  for (const double value : values) require(value >= 0.0 && value < 1e6, place, "color must not be negative");
+  const glm::vec3 power{glm::dvec3(glm::make_vec3(values.data())) * intensity};
+  const std::string type = source["type"];
+  if (type == "directional") return DirectionalLight{glm::vec3{view_direction(world, place)}, power};
 
   PointLight point{position_of(world, place), power, std::nullopt};
-  if (source.range > 0.0) point.range = static_cast<float>(source.range);
-  if (source.type == "point") return point;
-  require(source.type == "spot", place, "is none of point, spot, directional");
-  const double inner = source.spot.innerConeAngle, outer = source.spot.outerConeAngle;
+  if (range > 0.0) point.range = static_cast<float>(range);
+  if (type == "point") return point;
+  require(type == "spot", place, "is none of point, spot, directional");
+  const Json spot = source.value("spot", Json::object());
+  const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", std::numbers::pi / 4.0);
   require(inner >= 0.0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6, place,
           "needs 0 <= innerConeAngle < outerConeAngle <= pi / 2");
   return SpotLight{point, glm::vec3{view_direction(world, place)}, static_cast<float>(inner),
                    static_cast<float>(outer)};
 }
 
-using Json = nlohmann::json;
 using Pointer = Json::json_pointer;
+
+const Pointer lights("/extensions/KHR_lights_punctual/lights"), node_light("/extensions/KHR_lights_punctual/light");
 
 /// The entries of one kind, with the index of the `wanted` one; else `otherwise`, if there are any.
 ModelChoice choose(const Json& document, const char* kind, const Pointer& entries,
@@ -147,15 +151,20 @@ int material_in_variant(const Json& primitive, const std::optional<std::size_t>&
 
 constexpr int deepest_node = 1000;
 
-std::vector<int> root_nodes(const tinygltf::Model& model, const std::optional<std::size_t>& scene) {
-  if (scene) return model.scenes[*scene].nodes;
-  std::vector<bool> is_child(model.nodes.size(), false);
-  for (const auto& node : model.nodes) {
-    for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
+using Nodes = std::vector<std::size_t>;
+
+Nodes children_of(const Json& node, const char* member) { return node.value(member, Nodes()); }
+
+Nodes root_nodes(const Json& document, const std::optional<std::size_t>& scene) {
+  if (scene) return children_of(document["scenes"][*scene], "nodes");
+  const Json nodes = document.value("nodes", Json::array());
+  std::vector<bool> is_child(nodes.size(), false);
+  for (const Json& node : nodes) {
+    for (const std::size_t child : children_of(node, "children")) is_child[child] = true;
   }
-  std::vector<int> roots;
+  Nodes roots;
   for (std::size_t i = 0; i < is_child.size(); ++i) {
-    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+    if (!is_child[i]) roots.push_back(i);
   }
   return roots;
 }
@@ -163,7 +172,7 @@ std::vector<int> root_nodes(const tinygltf::Model& model, const std::optional<st
 /// A camera with its node's transform.
 struct PlacedCamera {
   std::string name;
-  int camera;
+  std::size_t camera;
   glm::dmat4 world;
 };
 
@@ -173,11 +182,11 @@ class Gatherer {
   Gatherer(const GltfDocument& document, const Pose& pose, const std::optional<std::size_t>& variant, Model& result)
       : document_(document), pose_(pose), variant_(variant), result_(result), materials_(document, result.warnings) {}
 
-  void gather(const std::vector<int>& roots) {
+  void gather(const Nodes& roots) {
     std::vector<Pending> stack;
-    std::vector<bool> seen(document_.model.nodes.size(), false);
-    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parent, int depth) {
-      std::for_each(nodes.rbegin(), nodes.rend(), [&](int node) { stack.push_back({node, parent, depth}); });
+    std::vector<bool> seen(pose_.nodes.size(), false);
+    const auto push = [&](const Nodes& nodes, const glm::dmat4& parent, int depth) {
+      std::for_each(nodes.rbegin(), nodes.rend(), [&](std::size_t node) { stack.push_back({node, parent, depth}); });
     };
     push(roots, glm::dmat4{1.0}, 1);
     while (!stack.empty()) {
@@ -185,15 +194,14 @@ class Gatherer {
       const auto [index, parent, depth] = stack.back();
       stack.pop_back();
       const std::string place = fmt::format("nodes[{}]", index);
-      if (seen[static_cast<std::size_t>(index)]) {
+      if (seen[index])
         refuse_gltf(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
-      }
-      seen[static_cast<std::size_t>(index)] = true;
+      seen[index] = true;
       if (depth > deepest_node) refuse_gltf(place, fmt::format("is more than {} nodes deep", deepest_node));
-      const auto& node = pose_.nodes()[static_cast<std::size_t>(index)];
+      const Json& node = pose_.nodes[index];
       const glm::dmat4 world = parent * local_transform(node, place);
       gather_node(node, world);
-      push(node.children, world, depth + 1);
+      push(children_of(node, "children"), world, depth + 1);
     }
     result_.materials = materials_.materials();
     for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
@@ -204,27 +212,29 @@ class Gatherer {
 
  private:
   struct Pending {
-    int node;
+    std::size_t node;
     glm::dmat4 parent;
     int depth;
   };
 
-  void gather_node(const tinygltf::Node& node, const glm::dmat4& world) {
-    if (node.camera >= 0) {
-      const std::string& own = document_.model.cameras[static_cast<std::size_t>(node.camera)].name;
-      const std::string numbered = fmt::format("camera {}", cameras_.size());
-      cameras_.push_back({!own.empty() ? own : !node.name.empty() ? node.name : numbered, node.camera, world});
+  void gather_node(const Json& node, const glm::dmat4& world) {
+    if (node.contains("camera")) {
+      const auto camera = node["camera"].get<std::size_t>();
+      const std::string own = document_.json["cameras"][camera].value("name", ""), name = node.value("name", ""),
+                        numbered = fmt::format("camera {}", cameras_.size());
+      cameras_.push_back({!own.empty() ? own : !name.empty() ? name : numbered, camera, world});
     }
-    if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end()) {
-      result_.lights.push_back(convert_light(document_.model, light->second.Get("light").GetNumberAsInt(), world));
+    if (node.contains(node_light)) {
+      const auto light = node[node_light].get<std::size_t>();
+      result_.lights.push_back(convert_light(document_.json[lights][light], light, world));
     }
-    if (node.mesh < 0) return;
-    const auto& mesh = document_.model.meshes[static_cast<std::size_t>(node.mesh)];
-    const MeshPose pose = pose_.of_mesh(node, world);
-    const Json& primitives = document_.json["meshes"][static_cast<std::size_t>(node.mesh)]["primitives"];
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+    if (!node.contains("mesh")) return;
+    const auto mesh = node["mesh"].get<std::size_t>();
+    const MeshPose pose = mesh_pose(document_, pose_, node, world);
+    const Json& primitives = document_.json["meshes"][mesh]["primitives"];
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
       const int material = materials_.use(material_in_variant(primitives[i], variant_));
-      auto part = convert_primitive(document_.model, node.mesh, static_cast<int>(i), pose,
+      auto part = convert_primitive(document_, mesh, i, pose,
                                     materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
       if (part) merge(*part, material);
     }
@@ -252,8 +262,8 @@ class Gatherer {
   std::uint64_t index_count_ = 0;
 };
 
-void warn_left_out(const tinygltf::Model& source, Model& result) {
-  for (const std::string& name : source.extensionsUsed) {
+void warn_left_out(const Json& document, Model& result) {
+  for (const std::string name : document.value("extensionsUsed", Json::array())) {
     if (!reads_gltf_extension(name)) {
       const std::string_view layer = gltf_layer(name);
       add_once(result.warnings,
@@ -263,7 +273,7 @@ void warn_left_out(const tinygltf::Model& source, Model& result) {
 }
 
 /// Selects the requested camera, else the first.
-void take_camera(const tinygltf::Model& source, const std::vector<PlacedCamera>& cameras,
+void take_camera(const Json& document, const std::vector<PlacedCamera>& cameras,
                  const std::optional<std::string>& wanted, Model& result) {
   ModelChoice& choice = result.choices.emplace_back(ModelChoice{"camera", {}, {}});
   for (const PlacedCamera& camera : cameras) choice.names.push_back(camera.name);
@@ -275,7 +285,7 @@ void take_camera(const tinygltf::Model& source, const std::vector<PlacedCamera>&
   }
   if (choice.taken) {
     const PlacedCamera& taken = cameras[*choice.taken];
-    result.camera = convert_camera(source, taken.camera, taken.world);
+    result.camera = convert_camera(document, taken.camera, taken.world);
   }
 }
 
@@ -283,10 +293,10 @@ void take_camera(const tinygltf::Model& source, const std::vector<PlacedCamera>&
 
 Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection) {
   const GltfDocument document = read_gltf(file);
+  const Json& json = document.json;
   Model result;
-  warn_left_out(document.model, result);
+  warn_left_out(json, result);
   try {
-    const Json& json = document.json;
     const ModelChoice scene =
         choose(json, "scene", Pointer("/scenes"), selection.scene, json.value("scene", std::size_t{0}));
     const ModelChoice variant =
@@ -295,12 +305,12 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
     const bool first_animation = selection.time && !selection.animation;
     const ModelChoice animation = choose(json, "animation", Pointer("/animations"),
                                          first_animation ? std::optional<std::string>("0") : selection.animation);
-    const Pose pose(document.model, animation.taken, selection.time.value_or(0.0));
-    result.motion = pose.motion();
+    const Pose pose = pose_at(document, animation.taken, selection.time.value_or(0.0));
+    result.motion = pose.motion;
     Gatherer gathered(document, pose, variant.taken, result);
-    gathered.gather(root_nodes(document.model, scene.taken));
+    gathered.gather(root_nodes(json, scene.taken));
     result.choices.push_back(scene);
-    take_camera(document.model, gathered.cameras(), selection.camera, result);
+    take_camera(json, gathered.cameras(), selection.camera, result);
     result.choices.push_back(variant);
     result.choices.push_back(animation);
     std::erase_if(result.choices, [](const ModelChoice& choice) { return choice.names.empty(); });

@@ -11,16 +11,17 @@
 #include <span>
 
 #include "renderer/core/error.hpp"
-#include "renderer/scene/gltf/check.hpp"
-#include "renderer/scene/gltf/document.hpp"
 
 namespace footprint {
 namespace {
 
+using Json = nlohmann::json;
+
 constexpr std::size_t deepest_joint = 1000;
 
-glm::dvec3 vector_or(const std::vector<double>& values, double otherwise) {
-  return values.size() == 3 ? glm::make_vec3(values.data()) : glm::dvec3{otherwise};
+glm::dvec3 vector_or(const Json& node, const char* member, double otherwise) {
+  const auto values = node.value(member, std::vector(3, otherwise));
+  return glm::make_vec3(values.data());
 }
 
 glm::dquat unit(const std::vector<double>& q, const std::string& place) {  // x, y, z, w
@@ -49,12 +50,11 @@ struct Keys {
 // The number of components of a channel's values; 1 for weights.
 int components_of(const std::string& path) { return path == "rotation" ? 4 : path == "weights" ? 1 : 3; }
 
-Keys read_keys(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler, const std::string& path,
-               const std::string& place) {
-  Keys keys{.times = read_floats(model, sampler.input, 1),
-            .values = read_floats(model, sampler.output, components_of(path)),
+Keys read_keys(const GltfDocument& document, const Json& sampler, const std::string& path, const std::string& place) {
+  Keys keys{.times = read_floats(document, sampler["input"].get<std::size_t>(), 1),
+            .values = read_floats(document, sampler["output"].get<std::size_t>(), components_of(path)),
             .width = static_cast<std::size_t>(components_of(path)),
-            .spline = sampler.interpolation == "CUBICSPLINE"};
+            .spline = sampler.value("interpolation", "") == "CUBICSPLINE"};
   for (std::size_t i = 0; i < keys.times.size(); ++i) {
     if (!std::isfinite(keys.times[i]) || (i > 0 && keys.times[i] <= keys.times[i - 1]))
       refuse_gltf(place, fmt::format("key {} is not later than the one before", i));
@@ -104,79 +104,83 @@ std::vector<double> value_at(const Keys& keys, double time, const std::string& i
   return out;
 }
 
-void apply_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
-                   const tinygltf::AnimationChannel& channel, double time, const std::string& place,
-                   std::vector<tinygltf::Node>& nodes, Motion& motion) {
-  const std::string& path = channel.target_path;
-  if (channel.target_node < 0) return;  // as an extension targets it
+void apply_channel(const GltfDocument& document, const Json& animation, const Json& channel, double time,
+                   const std::string& place, Json& nodes, Motion& motion) {
+  const Json& target = channel["target"];
+  const auto path = target["path"].get<std::string>();
+  if (!target.contains("node")) return;  // as an extension targets it
   if (path != "translation" && path != "rotation" && path != "scale" && path != "weights") return;
-  if (channel.sampler < 0 || channel.sampler >= static_cast<int>(animation.samplers.size()))
-    refuse_gltf(place, fmt::format("sampler {} is none of {}", channel.sampler, animation.samplers.size()));
-  const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
-  tinygltf::Node& node = nodes[static_cast<std::size_t>(channel.target_node)];
-  if (path != "weights" && !node.matrix.empty())
-    refuse_gltf(place, fmt::format("moves nodes[{}], which has a matrix", channel.target_node));
-  const Keys keys = read_keys(model, sampler, path, place);
+  const auto index = channel["sampler"].get<std::size_t>();
+  const std::size_t samplers = animation["samplers"].size();
+  if (index >= samplers) refuse_gltf(place, fmt::format("sampler {} is none of {}", index, samplers));
+  const Json& sampler = animation["samplers"][index];
+  const auto moved = target["node"].get<std::size_t>();
+  if (path != "weights" && nodes[moved].contains("matrix"))
+    refuse_gltf(place, fmt::format("moves nodes[{}], which has a matrix", moved));
+  const Keys keys = read_keys(document, sampler, path, place);
   motion.last_key = std::max(motion.last_key, static_cast<double>(keys.times.back()));
   for (const std::vector<float>& numbers : {keys.times, keys.values})
     motion.content = fnv1a(std::as_bytes(std::span(numbers)), motion.content);
-  std::vector<double> value = value_at(keys, time, sampler.interpolation, path == "rotation", place);
-  (path == "translation" ? node.translation
-   : path == "rotation"  ? node.rotation
-   : path == "scale"     ? node.scale
-                         : node.weights) = std::move(value);
+  nodes[moved][path] = value_at(keys, time, sampler.value("interpolation", ""), path == "rotation", place);
 }
 
-}  // namespace
-
-glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place) {
-  glm::dmat4 local{1.0};
-  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-  if (node.rotation.size() == 4) local = glm::mat4_cast(unit(node.rotation, place));
-  const glm::dvec3 scale = vector_or(node.scale, 1.0);
-  for (int axis = 0; axis < 3; ++axis) local[axis] *= scale[axis];
-  local[3] = glm::dvec4{vector_or(node.translation, 0.0), 1.0};
-  return local;
-}
-
-Pose::Pose(const tinygltf::Model& model, const std::optional<std::size_t>& animation, double time)
-    : model_(model), nodes_(model.nodes), parents_(model.nodes.size(), -1) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    for (const int child : nodes_[i].children) parents_[static_cast<std::size_t>(child)] = static_cast<int>(i);
-  }
-  if (!animation) return;
-  const tinygltf::Animation& source = model.animations[*animation];
-  motion_.emplace();
-  for (std::size_t i = 0; i < source.channels.size(); ++i)
-    apply_channel(model, source, source.channels[i], time, fmt::format("animations[{}].channels[{}]", *animation, i),
-                  nodes_, *motion_);
-}
-
-glm::dmat4 Pose::world_of(int node) const {
+glm::dmat4 world_of(const Pose& pose, std::size_t node) {
   glm::dmat4 world{1.0};
   std::size_t depth = 0;
-  for (int i = node; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+  for (int i = static_cast<int>(node); i >= 0; i = pose.parents[static_cast<std::size_t>(i)]) {
     const std::string place = fmt::format("nodes[{}]", i);
     if (++depth > deepest_joint) refuse_gltf(place, "a joint is in a cycle, or too deep: glTF wants a tree");
-    world = local_transform(nodes_[static_cast<std::size_t>(i)], place) * world;
+    world = local_transform(pose.nodes[static_cast<std::size_t>(i)], place) * world;
   }
   return world;
 }
 
-MeshPose Pose::of_mesh(const tinygltf::Node& node, const glm::dmat4& world) const {
-  MeshPose pose{.world = world, .joints = {}, .weights = node.weights};
-  if (pose.weights.empty()) pose.weights = model_.meshes[static_cast<std::size_t>(node.mesh)].weights;
-  if (node.skin < 0) return pose;
-  const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(node.skin)];
-  std::vector<float> inverse;  // column by column
-  if (skin.inverseBindMatrices >= 0) inverse = read_floats(model_, skin.inverseBindMatrices, 16);
-  if (!inverse.empty() && inverse.size() < 16 * skin.joints.size())
-    refuse_gltf(fmt::format("skins[{}]", node.skin), "has fewer inverse bind matrices than joints");
-  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-    const glm::mat4 to_joint = inverse.empty() ? glm::mat4{1.0F} : glm::make_mat4(&inverse[16 * j]);
-    pose.joints.push_back(world_of(skin.joints[j]) * glm::dmat4{to_joint});
+}  // namespace
+
+glm::dmat4 local_transform(const Json& node, const std::string& place) {
+  glm::dmat4 local{1.0};
+  if (node.contains("matrix")) return glm::make_mat4(node["matrix"].get<std::vector<double>>().data());
+  if (node.contains("rotation")) local = glm::mat4_cast(unit(node["rotation"].get<std::vector<double>>(), place));
+  const glm::dvec3 scale = vector_or(node, "scale", 1.0);
+  for (int axis = 0; axis < 3; ++axis) local[axis] *= scale[axis];
+  local[3] = glm::dvec4{vector_or(node, "translation", 0.0), 1.0};
+  return local;
+}
+
+Pose pose_at(const GltfDocument& document, const std::optional<std::size_t>& animation, double time) {
+  Pose pose{document.json.value("nodes", Json::array()), {}};
+  pose.parents.assign(pose.nodes.size(), -1);
+  for (std::size_t i = 0; i < pose.nodes.size(); ++i) {
+    for (const auto child : pose.nodes[i].value("children", std::vector<std::size_t>()))
+      pose.parents[child] = static_cast<int>(i);
   }
+  if (!animation) return pose;
+  const Json& source = document.json["animations"][*animation];
+  pose.motion.emplace();
+  for (std::size_t i = 0; i < source["channels"].size(); ++i)
+    apply_channel(document, source, source["channels"][i], time,
+                  fmt::format("animations[{}].channels[{}]", *animation, i), pose.nodes, *pose.motion);
   return pose;
+}
+
+MeshPose mesh_pose(const GltfDocument& document, const Pose& pose, const Json& node, const glm::dmat4& world) {
+  MeshPose out{.world = world, .joints = {}, .weights = node.value("weights", std::vector<double>())};
+  const Json& mesh = document.json["meshes"][node["mesh"].get<std::size_t>()];
+  if (out.weights.empty()) out.weights = mesh.value("weights", std::vector<double>());
+  if (!node.contains("skin")) return out;
+  const auto index = node["skin"].get<std::size_t>();
+  const Json& skin = document.json["skins"][index];
+  const auto joints = skin["joints"].get<std::vector<std::size_t>>();
+  std::vector<float> inverse;  // column by column
+  if (skin.contains("inverseBindMatrices"))
+    inverse = read_floats(document, skin["inverseBindMatrices"].get<std::size_t>(), 16);
+  if (!inverse.empty() && inverse.size() < 16 * joints.size())
+    refuse_gltf(fmt::format("skins[{}]", index), "has fewer inverse bind matrices than joints");
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const glm::mat4 to_joint = inverse.empty() ? glm::mat4{1.0F} : glm::make_mat4(&inverse[16 * j]);
+    out.joints.push_back(world_of(pose, joints[j]) * glm::dmat4{to_joint});
+  }
+  return out;
 }
 
 }  // namespace footprint

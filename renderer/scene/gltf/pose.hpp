@@ -1,14 +1,13 @@
 // The pose of a glTF file at a time of an animation, and its primitives placed in the world.
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -16,7 +15,7 @@ namespace footprint {
 
 /// A node's own transform: its matrix, or translation * rotation * scale. Throws Error (usage) that names `place`: a
 /// rotation without length.
-[[nodiscard]] glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& place);
+[[nodiscard]] glm::dmat4 local_transform(const nlohmann::json& node, const std::string& place);
 
 /// How a node poses its mesh.
 struct MeshPose {
@@ -26,30 +25,22 @@ struct MeshPose {
 };
 
 /// All nodes of a file at one time.
-class Pose {
- public:
-  /// animation: index; none: every node has the transform and the weights that the file gives it.
-  /// time: seconds; before the first and after the last key the values are theirs.
-  /// Throws Error (usage) that names the animation: keys that do not rise, a wrong number of values, an animated node
-  /// with a matrix.
-  Pose(const tinygltf::Model& model, const std::optional<std::size_t>& animation, double time);
-
-  [[nodiscard]] const std::vector<tinygltf::Node>& nodes() const { return nodes_; }
-  /// None without an animation.
-  [[nodiscard]] const std::optional<Motion>& motion() const { return motion_; }
-
-  /// The pose of the mesh of a node whose transform is `world`. Throws Error (usage): a skin whose joints are no tree,
-  /// or with fewer inverse bind matrices than joints.
-  [[nodiscard]] MeshPose of_mesh(const tinygltf::Node& node, const glm::dmat4& world) const;
-
- private:
-  [[nodiscard]] glm::dmat4 world_of(int node) const;
-
-  const tinygltf::Model& model_;
-  std::vector<tinygltf::Node> nodes_;
-  std::vector<int> parents_;  // -1: a root
-  std::optional<Motion> motion_;
+struct Pose {
+  nlohmann::json nodes;            ///< as in the file, with the transforms and weights of that time
+  std::vector<int> parents;        ///< of each node; -1: a root
+  std::optional<Motion> motion{};  ///< none without an animation
 };
+
+/// animation: index; none: every node has the transform and the weights that the file gives it.
+/// time: seconds; before the first and after the last key the values are theirs.
+/// Throws Error (usage) that names the animation: keys that do not rise, a wrong number of values, an animated node
+/// with a matrix.
+[[nodiscard]] Pose pose_at(const GltfDocument& document, const std::optional<std::size_t>& animation, double time);
+
+/// The pose of the mesh of a node whose transform is `world`. Throws Error (usage): a skin whose joints are no tree, or
+/// with fewer inverse bind matrices than joints.
+[[nodiscard]] MeshPose mesh_pose(const GltfDocument& document, const Pose& pose, const nlohmann::json& node,
+                                 const glm::dmat4& world);
 
 /// Converts a primitive. Missing normals become flat; unusable normals, tangents and texture coordinates are replaced,
 /// with a line in `warnings`. None for points, lines and primitives without a whole triangle. `Mesh::material` is not
@@ -58,8 +49,8 @@ class Pose {
 /// material: the texture coordinates of its maps determine the tangents.
 /// Throws Error (usage) that names mesh, primitive and vertex: a position that is not finite or beyond 1e15 m,
 /// attributes of different length, or indices or joints out of range.
-[[nodiscard]] std::optional<Mesh> convert_primitive(const tinygltf::Model& model, int mesh, int primitive,
-                                                    const MeshPose& pose, const Material& material,
-                                                    std::vector<std::string>& warnings);
+[[nodiscard]] std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh,
+                                                    std::size_t primitive, const MeshPose& pose,
+                                                    const Material& material, std::vector<std::string>& warnings);
 
 }  // namespace footprint

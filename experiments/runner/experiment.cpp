@@ -423,7 +423,7 @@ std::vector<double> distances_of(const Experiment& experiment) {
   std::vector<double> given = given_distances(run.view);
   if (!given.empty()) return given;
   Scene with_distances;  // all that a zoom path needs of a scene
-  with_distances.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.distances;
+  with_distances.distances = read_scene(run.scene, run.scene_library, run.overrides).settings.scene.distances;
   return run_distances(run.view, with_distances);
 }
 

@@ -43,14 +43,12 @@ Bounds bounds_of(const std::vector<Mesh>& meshes) {
 }
 
 /// Facets of a patch shadow each other as on a flat surface, so that no light comes from below its plane.
-Horizon horizon_of(const SceneSettings& settings, const std::string& source) {
-  const Horizon horizon = settings.horizon.value_or(Horizon::open);
+void require_horizon(const SceneSettings& settings) {
   const auto patched = [](const PartSettings& part) { return !part.microgeometry.empty(); };
-  if (horizon == Horizon::open && std::ranges::any_of(settings.parts, patched)) {
-    throw Error(ErrorKind::usage, source, "its small-scale geometry knows no light from below the surface's horizon",
-                "leave `horizon` out, or set it to \"cut\"");
-  }
-  return horizon;
+  if (settings.scene.horizon == Horizon::cut || std::ranges::none_of(settings.parts, patched)) return;
+  throw Error(ErrorKind::usage, settings.scene.source,
+              "its small-scale geometry knows no light from below the surface's horizon",
+              "leave `horizon` out, or set it to \"cut\"");
 }
 
 void set_camera(const SceneSettings& settings, const std::optional<Camera>& own, Scene& scene) {
@@ -64,19 +62,16 @@ void set_camera(const SceneSettings& settings, const std::optional<Camera>& own,
     return;
   }
   Framing used = framing != nullptr ? *framing : Framing{};
-  if (settings.frame_size) used.aspect = static_cast<double>(settings.frame_size->x) / settings.frame_size->y;
+  if (scene.frame_size) used.aspect = static_cast<double>(scene.frame_size->x) / scene.frame_size->y;
   scene.camera = frame_bounds(scene.bounds, used);
   if (framing == nullptr) {
     scene.defaults.emplace_back("camera: framed on the bounds, seen from the front, slightly right and above");
   }
 }
 
-void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& scene) {
-  if (settings.keep_model_lights) scene.lights = std::move(own);
-  scene.lights.insert(scene.lights.end(), settings.lights.begin(), settings.lights.end());
+void set_lights(const SceneSettings& settings, const std::vector<Light>& own, Scene& scene) {
+  if (settings.keep_model_lights) scene.lights.insert(scene.lights.begin(), own.begin(), own.end());
   if (settings.environment) scene.environment = make_environment(*settings.environment, scene.warnings);
-  scene.exposure = settings.exposure;
-  scene.footprint = settings.footprint;
   if (!scene.lights.empty() || scene.environment) return;
   scene.lights = supplied_lights(scene.camera, scene.bounds);
   scene.defaults.emplace_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");
@@ -84,34 +79,29 @@ void set_lights(const SceneSettings& settings, std::vector<Light> own, Scene& sc
     scene.environment = supplied_environment();
     scene.defaults.emplace_back("environment: a studio of soft light, so that metal has something to mirror");
   }
-  if (!settings.exposure && !settings.automatic_exposure) {
+  if (!scene.exposure && !settings.automatic_exposure) {
     scene.exposure = 1.0F;
     scene.defaults.emplace_back("exposure: 1, which suits the supplied lights");
   }
 }
 
-Scene assemble_scene(const SceneSettings& settings, const std::string& name, const std::string& source,
-                     const std::optional<Bounds>& bounds) {
+Scene assemble_scene(const SceneSettings& settings, const std::optional<Bounds>& bounds) {
   Model model;
   for (const PartSettings& part : settings.parts) add(model, load_part(part));
+  Scene scene = settings.scene;
   if (model.meshes.empty()) {
-    throw Error(ErrorKind::usage, source, "the scene has no triangle", "give it a mesh with at least one triangle");
+    throw Error(ErrorKind::usage, scene.source, "the scene has no triangle",
+                "give it a mesh with at least one triangle");
   }
-  Scene scene;
-  scene.name = settings.name.value_or(name);
-  scene.source = source;
   scene.meshes = std::move(model.meshes);
   scene.materials = std::move(model.materials);
   scene.choices = std::move(model.choices);
   scene.motion = model.motion;
   scene.warnings = std::move(model.warnings);
   scene.bounds = bounds ? *bounds : bounds_of(scene.meshes);
-  scene.frame_size = settings.frame_size;
-  scene.distances = settings.distances;
-  scene.shadows = settings.shadows;
-  scene.horizon = horizon_of(settings, source);
+  require_horizon(settings);
   set_camera(settings, model.camera, scene);
-  set_lights(settings, std::move(model.lights), scene);
+  set_lights(settings, model.lights, scene);
   return scene;
 }
 
@@ -125,14 +115,14 @@ bool is_file(const fs::path& path) {
 }
 
 // Applies a selection to the only model file.
-void select(const ModelSelection& wanted, const std::string& source, SceneSettings& settings) {
+void select(const ModelSelection& wanted, SceneSettings& settings) {
   if (wanted.empty()) return;
   std::vector<ModelSettings*> models;
   for (PartSettings& part : settings.parts) {
     if (part.model) models.push_back(&*part.model);
   }
   if (models.size() != 1) {
-    throw Error(ErrorKind::usage, source,
+    throw Error(ErrorKind::usage, settings.scene.source,
                 models.empty() ? "it has no model file whose scene, camera, variant, animation or time could be chosen"
                                : "it has several model files, so that it is not clear whose is chosen",
                 models.empty() ? "leave the choice out"
@@ -150,7 +140,7 @@ void select(const ModelSelection& wanted, const std::string& source, SceneSettin
 }
 
 void apply(const SceneOverrides& overrides, SceneSource& source) {
-  select(overrides.model, source.source, source.settings);
+  select(overrides.model, source.settings);
   if (!std::holds_alternative<std::monostate>(overrides.camera)) source.settings.camera = overrides.camera;
   if (overrides.environment) {
     source.settings.environment.emplace().candidates = {*overrides.environment};
@@ -163,15 +153,19 @@ void apply(const SceneOverrides& overrides, SceneSource& source) {
   }
 }
 
-SceneSource settings_source(const fs::path& file, const std::string& source, std::span<const Surface> surfaces) {
+SceneSource settings_source(const fs::path& file, std::span<const Surface> surfaces) {
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename().string();
-  const std::string stem = file.filename() == settings_name ? folder : file.stem().string();
-  return {read_scene_settings(file, surfaces), stem, source, file, {}};
+  SceneSource out{read_scene_settings(file, surfaces), file, {}};
+  std::string& name = out.settings.scene.name;
+  if (name.empty()) name = file.filename() == settings_name ? folder : file.stem().string();
+  return out;
 }
 
-SceneSource bare_source(const fs::path& file, const std::string& source) {
-  SceneSource out{{}, file.stem().string(), source, {}, {}};
+SceneSource bare_source(const fs::path& file) {
+  SceneSource out;
+  out.settings.scene.name = file.stem().string();
   out.settings.parts.emplace_back().model = ModelSettings{{file}, {}, false, {}};
+  out.settings.scene.horizon = Horizon::open;
   out.settings.supply_environment = true;
   return out;
 }
@@ -181,15 +175,15 @@ SceneSource source_of(const std::string& scene, const SceneLibrary& library) {
   const fs::path path = scene;
   const bool plain_name = path == path.filename() && !path.has_extension();
   if (plain_name && is_file(library.folder / path / settings_name)) {
-    return settings_source(library.folder / path / settings_name, scene, library.surfaces);
+    return settings_source(library.folder / path / settings_name, library.surfaces);
   }
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    if (is_file(path / settings_name)) return settings_source(path / settings_name, scene, library.surfaces);
+    if (is_file(path / settings_name)) return settings_source(path / settings_name, library.surfaces);
     throw Error(ErrorKind::usage, scene, "the folder has no scene.toml", "name a folder with one, or a glTF file");
   }
-  if (lower_extension(path) == ".toml") return settings_source(path, scene, library.surfaces);
-  if (names_model(path)) return bare_source(path, scene);
+  if (lower_extension(path) == ".toml") return settings_source(path, library.surfaces);
+  if (names_model(path)) return bare_source(path);
   if (fs::exists(path, error)) {
     throw Error(ErrorKind::usage, scene, "is neither a scene.toml nor a .gltf, .glb or .obj file",
                 "export the model as glTF 2.0");
@@ -201,13 +195,14 @@ SceneSource source_of(const std::string& scene, const SceneLibrary& library) {
 
 SceneSource read_scene(const std::string& scene, const SceneLibrary& library, const SceneOverrides& overrides) {
   SceneSource source = source_of(scene, library);
+  source.settings.scene.source = scene;
   apply(overrides, source);
   return source;
 }
 
 Scene assemble(const SceneSource& source) {
   try {
-    return assemble_scene(source.settings, source.name, source.source, source.bounds);
+    return assemble_scene(source.settings, source.bounds);
   } catch (const Error& error) {
     if (source.file.empty()) throw;
     throw error.within(source.file.string());

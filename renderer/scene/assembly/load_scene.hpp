@@ -20,11 +20,9 @@ namespace footprint {
 
 /// The settings of a scene before it is assembled, which may still be changed.
 struct SceneSource {
-  SceneSettings settings;
-  std::string name;              ///< default name, if the settings have none
-  std::string source;            ///< SCENE as given
-  std::filesystem::path file;    ///< of the settings; empty for a bare model
-  std::optional<Bounds> bounds;  ///< none: those of its meshes
+  SceneSettings settings{};
+  std::filesystem::path file{};    ///< of the settings; empty for a bare model
+  std::optional<Bounds> bounds{};  ///< none: those of its meshes
 };
 
 /// Overrides of a scene's settings.

@@ -82,17 +82,17 @@ float radians(double degrees) { return static_cast<float>(degrees * std::numbers
 
 void read_frame(const TomlTable& table, SceneSettings& settings) {
   if (const auto size = read_pair(table, "size", {1.0, 65536.0})) {
-    settings.frame_size = glm::ivec2(*size);
-    if (glm::dvec2(*settings.frame_size) != *size)
+    settings.scene.frame_size = glm::ivec2(*size);
+    if (glm::dvec2(*settings.scene.frame_size) != *size)
       throw table.error_at("size", "must be whole numbers of pixels", "write it as [512, 512]");
   }
   if (const auto filter = table.word("footprint")) {
-    settings.footprint = at_key(table, "footprint", [&] { return parse_footprint_filter(*filter, ""); });
+    settings.scene.footprint = at_key(table, "footprint", [&] { return parse_footprint_filter(*filter, ""); });
   }
   if (table.is_word("exposure")) {
     settings.automatic_exposure = table.choice("exposure", {"auto"}).has_value();
   } else {
-    assign(settings.exposure, table.number("exposure", {1e-9, 1e9}));
+    assign(settings.scene.exposure, table.number("exposure", {1e-9, 1e9}));
   }
 }
 
@@ -200,16 +200,16 @@ void read_lights(const TomlTable& root, const std::filesystem::path& folder, Sce
   for (const TomlTable& light :
        root.tables("light", {"type", "position", "direction", "color", "intensity", "range", "inner_cone_degrees",
                              "outer_cone_degrees", "up", "size", "radius", "integral", "points"})) {
-    settings.lights.push_back(read_light(light));
+    settings.scene.lights.push_back(read_light(light));
   }
   if (const auto lights = root.table("lights", {"keep"})) assign(settings.keep_model_lights, lights->boolean("keep"));
   if (const auto environment = root.table("environment", environment_keys)) {
     settings.environment = read_environment(*environment, folder);
   }
   if (const auto shadows = root.table("shadows", {"cast", "resolution", "sides"})) {
-    settings.shadows.cast = shadows->boolean("cast");
-    assign(settings.shadows.both_sides, read_word(*shadows, "sides", shadow_sides));
-    assign(settings.shadows.resolution, shadows->whole_number("resolution", shadow_resolution));
+    settings.scene.shadows.cast = shadows->boolean("cast");
+    assign(settings.scene.shadows.both_sides, read_word(*shadows, "sides", shadow_sides));
+    assign(settings.scene.shadows.resolution, shadows->whole_number("resolution", shadow_resolution));
   }
 }
 
@@ -217,7 +217,7 @@ void read_view(const TomlTable& root, SceneSettings& settings) {
   if (const auto frame = root.table("frame", {"size", "exposure", "footprint"})) read_frame(*frame, settings);
   if (const auto camera = root.table("camera", camera_keys())) settings.camera = read_camera(*camera);
   if (const auto zoom = root.table("zoom", {"distances"}))
-    assign(settings.distances, zoom->numbers("distances", 0, {smallest_distance, largest_distance}));
+    assign(settings.scene.distances, zoom->numbers("distances", 0, {smallest_distance, largest_distance}));
 }
 
 // Scenes of model files follow viewers, others the papers.
@@ -225,8 +225,8 @@ void set_rules(SceneSettings& settings) {
   const bool models = std::ranges::all_of(settings.parts, [](const PartSettings& part) {
     return part.model && !part.surface && part.microgeometry.empty();
   });
-  settings.horizon = models ? Horizon::open : Horizon::cut;
-  settings.shadows.both_sides = !models;
+  settings.scene.horizon = models ? Horizon::open : Horizon::cut;
+  settings.scene.shadows.both_sides = !models;
 }
 
 }  // namespace
@@ -268,8 +268,8 @@ SceneSettings read_scene_settings(const std::filesystem::path& file, std::span<c
   settings.parts = read_parts(root, file.parent_path(), surfaces);
   set_rules(settings);
   if (const auto scene = root.table("scene", {"name", "description", "horizon"})) {
-    assign(settings.horizon, read_word(*scene, "horizon", horizons));
-    settings.name = scene->word("name");
+    assign(settings.scene.horizon, read_word(*scene, "horizon", horizons));
+    assign(settings.scene.name, scene->word("name"));
     assign(settings.description, scene->word("description"));
   }
   read_lights(root, file.parent_path(), settings);

@@ -30,23 +30,16 @@ struct EnvironmentSettings {
 /// Loads or computes the environment. Throws Error (usage): none of the files exists; as load_environment.
 [[nodiscard]] Environment make_environment(const EnvironmentSettings& settings, std::vector<std::string>& warnings);
 
-/// All of a scene.toml. Default values apply to a bare glTF file.
+/// All of a scene.toml.
 struct SceneSettings {
-  std::optional<std::string> name;  ///< otherwise the folder's
+  Scene scene;                      ///< without what its parts, environment and camera add; the name may be empty
   std::string description;          ///< for lists of scenes
   std::vector<PartSettings> parts;  ///< at least one
-  std::optional<glm::ivec2> frame_size;
-  std::optional<float> exposure;
-  std::optional<FootprintFilter> footprint;
   bool automatic_exposure = false;  ///< requested explicitly, also with the supplied lights
-  std::vector<Light> lights;
   bool keep_model_lights = true;
   bool supply_environment = false;  ///< with the supplied lights, if the scene has no light
-  ShadowSettings shadows;
-  std::optional<Horizon> horizon;  ///< none: open
   std::optional<EnvironmentSettings> environment;
   CameraSettings camera;
-  std::vector<double> distances{1.0};
 };
 
 /// The keys of a [camera] table.

@@ -73,15 +73,15 @@ distances = [1, 2, 16]
 [tiling]
 uv = [2, 3]
 )");
-  EXPECT_EQ(settings.name, "n");
+  EXPECT_EQ(settings.scene.name, "n");
   const PlaneSettings& plane = settings.parts.at(0).plane.value();
   EXPECT_EQ(plane.size, glm::vec2(3.0F, 2.5F));
   EXPECT_EQ(plane.normals->path.filename(), "bumps.png");
   EXPECT_TRUE(plane.normals->path.is_absolute());
   EXPECT_EQ(plane.normals->channels, NormalChannels::xy);
   EXPECT_EQ(plane.normals->scale, 0.5);
-  EXPECT_EQ(settings.horizon, Horizon::open);
-  EXPECT_TRUE(settings.shadows.both_sides);
+  EXPECT_EQ(settings.scene.horizon, Horizon::open);
+  EXPECT_TRUE(settings.scene.shadows.both_sides);
   EXPECT_EQ(plane.roughness, 0.25F);
   EXPECT_EQ(plane.metallic, 1.0F);
   EXPECT_EQ(settings.parts.at(0).brdf.distribution, NormalDistribution::beckmann);
@@ -91,26 +91,26 @@ uv = [2, 3]
   EXPECT_EQ(settings.parts.at(0).brdf.lobe_parameter, 0.2F);
   EXPECT_EQ(settings.parts.at(0).brdf.specular, glm::vec3(0.1F, 0.2F, 0.3F));
   EXPECT_EQ(settings.parts.at(0).brdf.base_color, glm::vec3(0.4F, 0.5F, 0.6F));
-  EXPECT_EQ(settings.frame_size, glm::ivec2(640, 480));
-  EXPECT_EQ(settings.exposure, 2.0F);
+  EXPECT_EQ(settings.scene.frame_size, glm::ivec2(640, 480));
+  EXPECT_EQ(settings.scene.exposure, 2.0F);
   EXPECT_FALSE(settings.keep_model_lights);
-  ASSERT_EQ(settings.lights.size(), 3U);
-  const auto& point = std::get<PointLight>(settings.lights[0]);
+  ASSERT_EQ(settings.scene.lights.size(), 3U);
+  const auto& point = std::get<PointLight>(settings.scene.lights[0]);
   EXPECT_EQ(point.position, glm::vec3(1, 2, 3));
   EXPECT_EQ(point.intensity, glm::vec3(10, 5, 0));
   EXPECT_EQ(point.range, 4.0F);
-  const auto& spot = std::get<SpotLight>(settings.lights[1]);
+  const auto& spot = std::get<SpotLight>(settings.scene.lights[1]);
   EXPECT_EQ(spot.direction, glm::vec3(0, 0, -1));
   EXPECT_FLOAT_EQ(spot.inner_cone_angle, std::numbers::pi_v<float> / 18.0F);
   EXPECT_FLOAT_EQ(spot.outer_cone_angle, std::numbers::pi_v<float> / 2.0F);
-  EXPECT_EQ(std::get<DirectionalLight>(settings.lights[2]).direction, glm::vec3(0, -1, 0));
-  EXPECT_EQ(settings.shadows.cast, false);
-  EXPECT_EQ(settings.shadows.resolution, 512);
+  EXPECT_EQ(std::get<DirectionalLight>(settings.scene.lights[2]).direction, glm::vec3(0, -1, 0));
+  EXPECT_EQ(settings.scene.shadows.cast, false);
+  EXPECT_EQ(settings.scene.shadows.resolution, 512);
   const auto& framing = std::get<Framing>(settings.camera);
   EXPECT_EQ(framing.direction, glm::dvec3(0, 0, 1));
   EXPECT_FLOAT_EQ(static_cast<float>(framing.yfov), std::numbers::pi_v<float> / 2.0F);
   EXPECT_EQ(framing.margin, 2.0);
-  EXPECT_EQ(settings.distances, (std::vector<double>{1, 2, 16}));
+  EXPECT_EQ(settings.scene.distances, (std::vector<double>{1, 2, 16}));
   EXPECT_EQ(settings.parts.at(0).tiling, glm::vec2(2, 3));
 }
 
@@ -119,7 +119,7 @@ TEST(SceneSettings, AreaLights) {
   const auto lights =
       read(plane + start + "type = \"rectangle\"\nsize = [1, 3]\nup = [1, 0, 1]\nintensity = 6\ncolor = [1, 0.5, 0]\n" +
            start + "type = \"disk\"\nradius = 0.25\nintegral = \"points\"\npoints = 64\n")
-          .lights;
+          .scene.lights;
   ASSERT_EQ(lights.size(), 2U);
   const auto& rectangle = std::get<AreaLight>(lights[0]);
   EXPECT_EQ(rectangle.shape, AreaShape::rectangle);
@@ -159,7 +159,7 @@ TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
       "[model]\nfile = \"a.gltf\"\n[frame]\nexposure = \"auto\"\n"
       "[camera]\nposition = [0, 5, 0]\ntarget = [0, 0, 0]\nyfov_degrees = 60\nznear = 0.5\nzfar = 20\n");
   EXPECT_TRUE(settings.automatic_exposure);
-  EXPECT_FALSE(settings.exposure);
+  EXPECT_FALSE(settings.scene.exposure);
   const auto& camera = std::get<Camera>(settings.camera);
   EXPECT_NEAR(camera.world[2].y, 1.0F, 1e-6F);  // looks down: +y is behind it, although up is +y too
   EXPECT_EQ(camera.world[3], glm::vec4(0, 5, 0, 1));
@@ -169,9 +169,9 @@ TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
 }
 
 TEST(SceneSettings, ShadowsAreDerivedUnlessGiven) {
-  EXPECT_FALSE(read("[plane]\n").shadows.cast);
-  EXPECT_FALSE(read("[plane]\n[shadows]\n").shadows.cast);
-  EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").shadows.cast, true);
+  EXPECT_FALSE(read("[plane]\n").scene.shadows.cast);
+  EXPECT_FALSE(read("[plane]\n[shadows]\n").scene.shadows.cast);
+  EXPECT_EQ(read("[plane]\n[shadows]\ncast = true\n").scene.shadows.cast, true);
   expect_settings_error("[plane]\n[shadows]\ncast = \"on\"\n", {"scene.toml:3", "cast"});
   expect_settings_error("[plane]\n[shadows]\ncasts = true\n", {"scene.toml:3", "unknown key `casts`", "`cast`"});
   expect_settings_error("[plane]\n[shadows]\nresolution = 15\n", {"scene.toml:3", "resolution", "16"});

@@ -101,25 +101,14 @@ void encode(const Image& image, Storage storage, bool signed_range, std::vector<
   const std::size_t start = bytes.size();
   bytes.resize(start + level_bytes(storage, image.channels, image.width, image.height));
   std::uint8_t* const out = bytes.data() + start;
-  switch (storage) {
-    case Storage::fp32:
-      std::memcpy(out, image.texels.data(), image.texels.size() * sizeof(float));
-      break;
-    case Storage::fp16:
-      for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        const std::uint16_t bits = half_bits(image.texels[i]);
-        std::memcpy(out + 2 * i, &bits, 2);
-      }
-      break;
-    case Storage::unorm8:
-      std::ranges::transform(image.texels, out, [&](float v) { return unorm8(v, signed_range); });
-      break;
-    case Storage::bc1:
-    case Storage::bc4:
-    case Storage::bc5:
-      encode_blocks(image, storage, signed_range, out);
-      break;
+  if (is_block(storage)) return encode_blocks(image, storage, signed_range, out);
+  if (storage == Storage::fp32) std::memcpy(out, image.texels.data(), image.texels.size() * sizeof(float));
+  for (std::size_t i = 0; storage == Storage::fp16 && i < image.texels.size(); ++i) {
+    const std::uint16_t bits = half_bits(image.texels[i]);
+    std::memcpy(out + 2 * i, &bits, 2);
   }
+  if (storage == Storage::unorm8)
+    std::ranges::transform(image.texels, out, [&](float v) { return unorm8(v, signed_range); });
 }
 
 void require_finite(const std::string& name, const Image& level) {
@@ -272,26 +261,15 @@ Image decode_level(const PrefilteredTexture& texture, std::size_t index, int lay
   const std::size_t layer_bytes = level_bytes(texture.storage, texture.channels, level.width, level.height);
   const auto bytes = std::span(level.bytes).subspan(static_cast<std::size_t>(layer) * layer_bytes, layer_bytes);
   if (is_block(texture.storage)) return decode_blocks(texture.storage, level.width, level.height, bytes);
-  for (std::size_t i = 0; i < image.texels.size(); ++i) {
-    switch (texture.storage) {
-      case Storage::fp32:
-        std::memcpy(&image.texels[i], bytes.data() + 4 * i, 4);
-        break;
-      case Storage::fp16: {
-        half value;
-        std::uint16_t bits = 0;
-        std::memcpy(&bits, bytes.data() + 2 * i, 2);
-        value.setBits(bits);
-        image.texels[i] = value;
-        break;
-      }
-      case Storage::unorm8:
-        image.texels[i] = static_cast<float>(bytes[i]) / 255.0F;
-        break;
-      default:
-        break;  // blocks, above
-    }
+  if (texture.storage == Storage::fp32) std::memcpy(image.texels.data(), bytes.data(), bytes.size());
+  for (std::size_t i = 0; texture.storage == Storage::fp16 && i < image.texels.size(); ++i) {
+    std::uint16_t bits = 0;
+    std::memcpy(&bits, bytes.data() + 2 * i, 2);
+    image.texels[i] = imath_half_to_float(bits);
   }
+  if (texture.storage == Storage::unorm8)
+    std::ranges::transform(bytes, image.texels.begin(),
+                           [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0F; });
   return image;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <initializer_list>
 #include <vector>
 
 #include "renderer/bake/prefiltered.hpp"
@@ -48,7 +47,7 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
                                                     const Anisotropy& anisotropy = {});
 
 /// Copies some channels of every level, in the given order.
-[[nodiscard]] std::vector<Image> channels_of(const std::vector<Image>& chain, std::initializer_list<int> channels);
+[[nodiscard]] std::vector<Image> channels_of(const std::vector<Image>& chain, const std::vector<int>& channels);
 
 /// `roughness=stretched|shading|moments`: where the base lobe is added to the slopes, and its shape there.
 [[nodiscard]] OptionSpec slope_roughness_option();

@@ -18,23 +18,17 @@ constexpr std::uint32_t block_version = 2;     // of a basic descriptor block: K
 constexpr std::uint32_t primaries_unspecified = 0, transfer_linear = 1;
 constexpr std::uint32_t type_signed_float = 0xC0;  // qualifiers of a channel: float and signed
 
-class Bytes {
- public:
-  void word(std::uint32_t value) { number(value, 4); }
-  void long_word(std::uint64_t value) { number(value, 8); }
-  void text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
-  void block(const std::vector<std::uint8_t>& block) { bytes_.insert(bytes_.end(), block.begin(), block.end()); }
-  void pad_to(std::size_t size) { bytes_.resize(size, 0); }
-  [[nodiscard]] std::size_t size() const { return bytes_.size(); }
-  [[nodiscard]] std::vector<std::uint8_t> take() { return std::move(bytes_); }
+using Bytes = std::vector<std::uint8_t>;
 
- private:
-  void number(std::uint64_t value, int count) {
-    for (int i = 0; i < count; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+void append(Bytes& out, std::initializer_list<std::size_t> words) {
+  for (const std::size_t word : words) {
+    for (int i = 0; i < 4; ++i) out.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
   }
+}
 
-  std::vector<std::uint8_t> bytes_;
-};
+void append_long(Bytes& out, std::uint64_t value) { append(out, {value & 0xFFFFFFFFU, value >> 32U}); }
+
+void append(Bytes& out, const auto& bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); }
 
 // Of a texel, or of a block.
 std::size_t texel_size(const PrefilteredTexture& texture) {
@@ -73,36 +67,29 @@ std::uint32_t color_model(Storage storage) {
 }
 
 // KDFS 1.3, section 5: one basic block of Khronos' own.
-std::vector<std::uint8_t> format_descriptor(const PrefilteredTexture& texture) {
+Bytes format_descriptor(const PrefilteredTexture& texture) {
   const std::vector<Sample> samples = samples_of(texture);
-  const auto block_size = static_cast<std::uint32_t>(24 + 16 * samples.size());
+  const std::size_t block_size = 24 + 16 * samples.size();
+  const std::size_t block = is_block(texture.storage) ? 3 | 3 << 8 : 0;  // texels of 4 x 4 x 1 x 1, or one
   Bytes out;
-  out.word(4 + block_size);
-  out.word(0);
-  out.word(block_version | block_size << 16);
-  out.word(color_model(texture.storage) | primaries_unspecified << 8 | transfer_linear << 16);
-  out.word(is_block(texture.storage) ? 3 | 3 << 8 : 0);       // texel blocks of 4 x 4 x 1 x 1, or of one texel
-  out.word(static_cast<std::uint32_t>(texel_size(texture)));  // bytes of plane 0
-  out.word(0);
-  for (const Sample& sample : samples) {
-    out.word(sample.offset | sample.last_bit << 16 | sample.channel << 24);
-    out.word(0);  // its place in the block
-    out.word(sample.lower);
-    out.word(sample.upper);
-  }
-  return out.take();
+  append(out, {4 + block_size, 0, block_version | block_size << 16});
+  append(out, {color_model(texture.storage) | primaries_unspecified << 8 | transfer_linear << 16, block});
+  append(out, {texel_size(texture), 0});  // bytes of plane 0 and of the others
+  for (const Sample& sample : samples)    // the second word: its place in the block
+    append(out, {sample.offset | sample.last_bit << 16 | sample.channel << 24, 0, sample.lower, sample.upper});
+  return out;
 }
 
 // In the order of the keys, each with its length in front and filled up to four bytes.
-std::vector<std::uint8_t> key_values() {
+Bytes key_values() {
   using namespace std::string_view_literals;
   Bytes out;
   for (const std::string_view entry : {"KTXorientation\0rd\0"sv, "KTXwriter\0footprint bake\0"sv}) {
-    out.word(static_cast<std::uint32_t>(entry.size()));
-    out.text(entry);
-    out.pad_to(rounded_up(out.size(), 4));
+    append(out, {entry.size()});
+    append(out, entry);
+    out.resize(rounded_up(out.size(), 4));
   }
-  return out.take();
+  return out;
 }
 
 // Where each level's bytes begin, `first` being the first free byte: the coarsest comes first.
@@ -132,62 +119,50 @@ std::uint32_t vk_format(Storage storage, int channels) {
 
 std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
   if (texture.built) throw std::logic_error("texture " + texture.name + " is built on the GPU: it has no texels");
-  const std::vector<std::uint8_t> descriptor = format_descriptor(texture), keys = key_values();
+  const Bytes descriptor = format_descriptor(texture), keys = key_values();
   const std::size_t descriptor_at = header_bytes + level_entry_bytes * texture.levels.size();
   const std::size_t keys_at = descriptor_at + descriptor.size();
   const std::vector<std::size_t> offsets = level_offsets(texture, keys_at + keys.size());
-  Bytes out;
-  out.block({identifier.begin(), identifier.end()});
-  out.word(vk_format(texture.storage, texture.channels));
-  const std::size_t type_size = is_block(texture.storage) ? 1 : channel_bytes(texture.storage);
-  out.word(static_cast<std::uint32_t>(type_size));  // the unit of byte order
-  out.word(static_cast<std::uint32_t>(texture.levels.front().width));
-  out.word(static_cast<std::uint32_t>(texture.levels.front().height));
-  out.word(0);  // no depth
-  out.word(static_cast<std::uint32_t>(texture.layers));
-  out.word(1);  // one face
-  out.word(static_cast<std::uint32_t>(texture.levels.size()));
-  out.word(0);  // no supercompression, and so no global data
-  out.word(static_cast<std::uint32_t>(descriptor_at));
-  out.word(static_cast<std::uint32_t>(descriptor.size()));
-  out.word(static_cast<std::uint32_t>(keys_at));
-  out.word(static_cast<std::uint32_t>(keys.size()));
-  out.long_word(0);
-  out.long_word(0);
+  const auto width = static_cast<std::size_t>(texture.levels.front().width),
+             height = static_cast<std::size_t>(texture.levels.front().height),
+             layers = static_cast<std::size_t>(texture.layers);
+  const std::size_t type_size = is_block(texture.storage) ? 1 : channel_bytes(texture.storage);  // unit of byte order
+  Bytes out(identifier.begin(), identifier.end());
+  // After the size no depth; after the layers one face; after the levels no supercompression, and so no global data.
+  append(out,
+         {vk_format(texture.storage, texture.channels), type_size, width, height, 0, layers, 1, offsets.size(), 0});
+  append(out, {descriptor_at, descriptor.size(), keys_at, keys.size(), 0, 0, 0, 0});
   for (std::size_t level = 0; level < offsets.size(); ++level) {
-    out.long_word(offsets[level]);
-    out.long_word(texture.levels[level].bytes.size());
-    out.long_word(texture.levels[level].bytes.size());
+    for (const std::uint64_t value :
+         {offsets[level], texture.levels[level].bytes.size(), texture.levels[level].bytes.size()})
+      append_long(out, value);
   }
-  out.block(descriptor);
-  out.block(keys);
+  append(out, descriptor);
+  append(out, keys);
   for (std::size_t level = offsets.size(); level-- > 0;) {
-    out.pad_to(offsets[level]);
-    out.block(texture.levels[level].bytes);
+    out.resize(offsets[level]);
+    append(out, texture.levels[level].bytes);
   }
-  return out.take();
+  return out;
 }
 
 // Microsoft, "Programming guide for DDS": DDS_HEADER with DDS_PIXELFORMAT.
 std::vector<std::uint8_t> dds_bytes(const PrefilteredTexture& texture) {
-  constexpr std::uint32_t caps = 0x1, height = 0x2, width = 0x4, pitch = 0x8, pixel_format = 0x1000, mips = 0x20000;
-  constexpr std::uint32_t has_alpha = 0x1, is_rgb = 0x40, is_texture = 0x1000, is_complex = 0x8, has_mips = 0x400000;
+  constexpr std::size_t caps = 0x1, has_height = 0x2, has_width = 0x4, pitch = 0x8, format = 0x1000, mips = 0x20000;
+  constexpr std::size_t has_alpha = 0x1, is_rgb = 0x40, is_texture = 0x1000, is_complex = 0x8, has_mips = 0x400000;
   if (texture.storage != Storage::unorm8 || texture.channels != 4 || texture.layers > 0)
     throw std::logic_error("texture " + texture.name + " is not of four bytes");
-  const TextureLevel& finest = texture.levels.front();
+  const auto width = static_cast<std::size_t>(texture.levels.front().width),
+             height = static_cast<std::size_t>(texture.levels.front().height);
   Bytes out;
-  out.text("DDS ");
-  const auto words = [&](std::initializer_list<std::uint32_t> values) {
-    for (const std::uint32_t value : values) out.word(value);
-  };
-  words({124, caps | height | width | pitch | pixel_format | mips, static_cast<std::uint32_t>(finest.height),
-         static_cast<std::uint32_t>(finest.width), static_cast<std::uint32_t>(4 * finest.width), 0,
-         static_cast<std::uint32_t>(texture.levels.size())});
-  out.pad_to(out.size() + 44);  // reserved
-  words({32, has_alpha | is_rgb, 0, 32, 0x000000FF, 0x0000FF00, 0x00FF0000, 0xFF000000});
-  words({is_texture | is_complex | has_mips, 0, 0, 0, 0});
-  for (const TextureLevel& level : texture.levels) out.block(level.bytes);
-  return out.take();
+  append(out, std::string_view("DDS "));
+  append(out, {124, caps | has_height | has_width | pitch | format | mips, height, width, 4 * width, 0,
+               texture.levels.size()});
+  out.resize(out.size() + 44);  // reserved
+  append(out, {32, has_alpha | is_rgb, 0, 32, 0x000000FF, 0x0000FF00, 0x00FF0000, 0xFF000000});
+  append(out, {is_texture | is_complex | has_mips, 0, 0, 0, 0});
+  for (const TextureLevel& level : texture.levels) append(out, level.bytes);
+  return out;
 }
 
 }  // namespace footprint

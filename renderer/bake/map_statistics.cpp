@@ -173,13 +173,11 @@ double unit_share(const Image& stored) {
   if (stored.channels < 3 || stored.empty()) return 0.0;
   constexpr double tolerance = 0.3;  // maps of games are often not normalised
   std::size_t unit = 0;
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      const auto texel = stored.at(x, y);
-      const glm::dvec3 vector = 2.0 * glm::dvec3(texel[0], texel[1], texel[2]) - 1.0;
-      if (vector.z > 0.0 && std::abs(glm::length(vector) - 1.0) < tolerance) ++unit;
-    }
-  }
+  for_each_texel(stored, [&](int x, int y) {
+    const auto texel = stored.at(x, y);
+    const glm::dvec3 vector = 2.0 * glm::dvec3(texel[0], texel[1], texel[2]) - 1.0;
+    if (vector.z > 0.0 && std::abs(glm::length(vector) - 1.0) < tolerance) ++unit;
+  });
   return static_cast<double>(unit) / static_cast<double>(stored.texel_count());
 }
 

@@ -9,12 +9,8 @@
 namespace footprint {
 namespace {
 
-Image one_channel(const Image& image, int channel) {
-  Image out(image.width, image.height, 1);
-  const auto stride = static_cast<std::size_t>(image.channels);
-  for (std::size_t i = 0; i < out.texels.size(); ++i)
-    out.texels[i] = image.texels[i * stride + static_cast<std::size_t>(channel)];
-  return out;
+Image one_channel(const Image& image, std::size_t channel) {
+  return mapped(image, 1, [=](const auto& in, const auto& out) { out[0] = in[channel]; });
 }
 
 Image normals_or_flat(const std::optional<TextureMap>& map) {
@@ -106,14 +102,10 @@ Image coat_width_map_of(const Material& material) {
 }
 
 Image coat_normal_map_of(const Material& material) {
-  const Image map = normals_or_flat(coat_of(material).normal_map);
-  Image normals(map.width, map.height, 3);
-  for (std::size_t i = 0; i < map.texels.size() / 4; ++i) {
-    const bool valid = map.texels[4 * i + 3] > 0.5F;
-    for (std::size_t c = 0; c < 3; ++c)
-      normals.texels[3 * i + c] = valid ? map.texels[4 * i + c] : (c == 2 ? 1.0F : 0.0F);
-  }
-  return normals;
+  return mapped(normals_or_flat(coat_of(material).normal_map), 3, [](const auto& in, const auto& out) {
+    const bool valid = in[3] > 0.5F;
+    for (std::size_t c = 0; c < 3; ++c) out[c] = valid ? in[c] : (c == 2 ? 1.0F : 0.0F);
+  });
 }
 
 Lobe mean_lobe(const Material& material) {
@@ -164,9 +156,7 @@ std::span<const SharedMap> shared_maps() {
 }
 
 Image specular_weights(const Image& colours) {
-  Image weights(colours.width, colours.height, 1);
-  for (std::size_t i = 0; i < weights.texels.size(); ++i)
-    weights.texels[i] = luminance(colours.texels[3 * i], colours.texels[3 * i + 1], colours.texels[3 * i + 2]);
+  Image weights = mapped(colours, 1, [](const auto& in, const auto& out) { out[0] = luminance(in[0], in[1], in[2]); });
   const float largest = std::max(*std::ranges::max_element(weights.texels), 1e-6F);
   for (float& weight : weights.texels) weight /= largest;
   return weights;

@@ -25,13 +25,10 @@ void renormalise(Image& normals) {
 // x and y of the renormalised means.
 std::vector<Image> sideways(std::vector<Image> chain) {
   for (Image& level : chain) {
-    Image out(level.width, level.height, 2);
-    for (std::size_t i = 0; i < out.texel_count(); ++i) {
-      const float* const n = &level.texels[3 * i];
+    level = mapped(level, 2, [](const auto& n, const auto& out) {
       const float size = std::max(std::hypot(n[0], n[1], n[2]), 1e-6F);
-      for (std::size_t c = 0; c < 2; ++c) out.texels[2 * i + c] = n[c] / size;
-    }
-    level = std::move(out);
+      for (std::size_t c = 0; c < 2; ++c) out[c] = n[c] / size;
+    });
   }
   return chain;
 }

@@ -119,14 +119,11 @@ std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered) {
 
 Image normals_of_bumpslopes(const ExrChain& chain, const std::string& file) {
   require_layout(chain, file);
-  const Image finest = upward(chain).front();
-  Image normals(finest.width, finest.height, 4, 1.0F);
-  for (std::size_t i = 0; i < finest.texel_count(); ++i) {
-    const float* const texel = &finest.texels[channel_count * i];
-    const glm::dvec3 n = glm::normalize(glm::dvec3(-texel[along_u], -texel[along_v], 1.0));
-    for (int c = 0; c < 3; ++c) normals.texels[4 * i + static_cast<std::size_t>(c)] = static_cast<float>(n[c]);
-  }
-  return normals;
+  const auto write = [](const auto& texel, const auto& out) {
+    const glm::vec3 n(glm::normalize(glm::dvec3(-texel[along_u], -texel[along_v], 1.0)));
+    std::copy_n(&n.x, 3, out.begin());
+  };
+  return mapped(upward(chain).front(), 4, write, 1.0F);
 }
 
 void replace_moments(const ExrChain& chain, Prefiltered& prefiltered) {

@@ -41,13 +41,11 @@ MapColor color_at(float value, float maximum) {
 
 // The image over black as RGB, drawn with its top left corner in column `left` of row 0.
 void place_picture(Image& canvas, const Image& picture, int left) {
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const std::span<const float> from = picture.at(x, y);
-      const std::span<float> to = canvas.at(left + x, y);
-      for (std::size_t c = 0; c < 3; ++c) to[c] = from[from.size() == 1 ? 0 : c] * (from.size() == 4 ? from[3] : 1.0F);
-    }
-  }
+  for_each_texel(picture, [&](int x, int y) {
+    const std::span<const float> from = picture.at(x, y);
+    const std::span<float> to = canvas.at(left + x, y);
+    for (std::size_t c = 0; c < 3; ++c) to[c] = from[from.size() == 1 ? 0 : c] * (from.size() == 4 ? from[3] : 1.0F);
+  });
 }
 
 void require_strip(const std::vector<Image>& pictures, const std::vector<std::string>& captions) {
@@ -79,11 +77,8 @@ Image false_color(const Image& scalar, float maximum) {
     throw Error(ErrorKind::usage, "false colour", fmt::format("the image has {} channels", scalar.channels),
                 "give one channel");
   }
-  Image colored(scalar.width, scalar.height, 3);
-  for (std::size_t i = 0; i < scalar.texels.size(); ++i) {
-    std::ranges::copy(color_at(scalar.texels[i], maximum), colored.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
-  }
-  return colored;
+  return mapped(scalar, 3,
+                [=](const auto& in, const auto& out) { std::ranges::copy(color_at(in[0], maximum), out.begin()); });
 }
 
 Image false_color_legend(int width, int height, float maximum) {

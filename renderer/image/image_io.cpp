@@ -20,7 +20,6 @@
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
-#include "renderer/image/encode.hpp"
 #include "renderer/image/mipmap.hpp"
 
 namespace footprint {
@@ -178,15 +177,13 @@ std::uint64_t texels_of_header(IOProxy& source) {
   }
 }
 
-OIIO::ImageSpec writable_spec(const std::filesystem::path& file, const Image& image, const OIIO::TypeDesc& type) {
+void require_writable(const std::filesystem::path& file, const Image& image) {
   const bool taken = image.channels == 1 || image.channels == 3 || image.channels == 4;
-  if (image.empty() || !taken) {
-    throw Error(
-        ErrorKind::usage, file.string(),
-        fmt::format("an image of {} x {} x {} channels cannot be written", image.width, image.height, image.channels),
-        "write 1, 3 or 4 channels");
-  }
-  return {image.width, image.height, image.channels, type};
+  if (taken && !image.empty()) return;
+  throw Error(
+      ErrorKind::usage, file.string(),
+      fmt::format("an image of {} x {} x {} channels cannot be written", image.width, image.height, image.channels),
+      "write 1, 3 or 4 channels");
 }
 
 float clamped(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }  // NaN as 0
@@ -255,12 +252,6 @@ std::vector<unsigned char> encoded(const std::string& name, const char* format, 
 
 }  // namespace
 
-std::vector<unsigned char> encoded_image(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
-                                         const OIIO::TypeDesc& type, const void* texels) {
-  const std::array level{EncodedLevel{spec, texels}};
-  return encoded(name, format, type, level);
-}
-
 Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side) {
   return decode(*opened(file), file.string(), transfer, max_side);
 }
@@ -296,21 +287,29 @@ Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, T
 }
 
 void write_exr(const std::filesystem::path& file, const Image& image) {
-  OIIO::ImageSpec spec = writable_spec(file, image, OIIO::TypeDesc::FLOAT);
+  require_writable(file, image);
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
   describe_exr(spec);
-  write_file_atomically(file,
-                        encoded_image(file.string(), "openexr", spec, OIIO::TypeDesc::FLOAT, image.texels.data()));
+  const std::array level{EncodedLevel{spec, image.texels.data()}};
+  write_file_atomically(file, encoded(file.string(), "openexr", OIIO::TypeDesc::FLOAT, level));
+}
+
+std::vector<unsigned char> encoded_png(const std::string& name, int width, int height, int channels,
+                                       std::span<const std::uint8_t> texels) {
+  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");  // browsers convert no other
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  const std::array level{EncodedLevel{spec, texels.data()}};
+  return encoded(name, "png", OIIO::TypeDesc::UINT8, level);
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {
-  OIIO::ImageSpec spec = writable_spec(file, image, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("oiio:UnassociatedAlpha", 1);
+  require_writable(file, image);
   std::vector<std::uint8_t> bytes(image.texels.size());
   std::ranges::transform(image.texels, bytes.begin(),
                          [](float value) { return static_cast<std::uint8_t>(std::lround(clamped(value) * 255.0F)); });
-  write_file_atomically(file, encoded_image(file.string(), "png", spec, OIIO::TypeDesc::UINT8, bytes.data()));
+  write_file_atomically(file, encoded_png(file.string(), image.width, image.height, image.channels, bytes));
 }
 
 Image to_display(const Image& radiance, float exposure) {

@@ -43,6 +43,11 @@ void write_exr(const std::filesystem::path& file, const Image& image);
 /// Writes 1, 3 or 4 channels of display values 0..1 (clamped, NaN as 0) as 8-bit PNG; atomic as write_exr.
 void write_png(const std::filesystem::path& file, const Image& image);
 
+/// The bytes of a PNG, 8 bits per channel. name: for messages; texels: 1, 3 or 4 `channels`, interleaved. Throws Error
+/// (machine): it cannot be encoded.
+[[nodiscard]] std::vector<unsigned char> encoded_png(const std::string& name, int width, int height, int channels,
+                                                     std::span<const std::uint8_t> texels);
+
 /// Linear radiance to display: exposure, clamp, sRGB transfer curve; alpha stays, background is black.
 [[nodiscard]] Image to_display(const Image& radiance, float exposure);
 

@@ -64,14 +64,12 @@ template <typename Visit>
 void visit_object_pixels(const Image& picture, const Image& reference, Visit visit, const Image& mask = {}) {
   if (!mask.empty()) require_mask(mask, reference);
   require_comparable(picture, reference);
-  for (int y = 0; y < reference.height; ++y) {
-    for (int x = 0; x < reference.width; ++x) {
-      const bool is_masked = !mask.empty() && mask.at(x, y)[0] <= 0.0F;
-      if (is_masked || !covers_whole_pixel(reference.at(x, y))) continue;
-      const Rgb expected = rgb_of(reference, x, y, "the reference");
-      visit(x, y, rgb_of(picture, x, y, "the image"), expected);
-    }
-  }
+  for_each_texel(reference, [&](int x, int y) {
+    const bool is_masked = !mask.empty() && mask.at(x, y)[0] <= 0.0F;
+    if (is_masked || !covers_whole_pixel(reference.at(x, y))) return;
+    const Rgb expected = rgb_of(reference, x, y, "the reference");
+    visit(x, y, rgb_of(picture, x, y, "the image"), expected);
+  });
 }
 
 double squared(double value) { return value * value; }

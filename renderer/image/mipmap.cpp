@@ -94,10 +94,9 @@ std::vector<Image> weighted_mip_chain(Image finest) { return chain(std::move(fin
 
 Image nearest_texels(const Image& image, int width, int height) {
   Image out(width, height, image.channels);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      std::ranges::copy(image.at(x * image.width / width, y * image.height / height), out.at(x, y).begin());
-  }
+  for_each_texel(out, [&](int x, int y) {
+    std::ranges::copy(image.at(x * image.width / width, y * image.height / height), out.at(x, y).begin());
+  });
   return out;
 }
 

@@ -1,6 +1,7 @@
 // PNG compresses the two halves of the floats well, and every browser decodes it.
 #include "renderer/image/pixel_script.hpp"
 
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "renderer/core/files.hpp"
-#include "renderer/image/encode.hpp"
+#include "renderer/image/image_io.hpp"
 
 namespace footprint {
 namespace {
@@ -55,9 +56,7 @@ void write_pixel_script(const std::filesystem::path& file, const Image& image, c
   for (std::size_t i = 0; i < image.texel_count(); ++i)
     bytes[2 * halves.size() + 3 * i] =
         coverage_byte(coverage_of(image, i), !left_out.empty() && left_out.texels[i] > 0.0F);
-  OIIO::ImageSpec spec(image.width, 3 * image.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");  // browsers convert no other
-  const auto png = encoded_image(file.string(), "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
+  const auto png = encoded_png(file.string(), image.width, 3 * image.height, 3, bytes);
   const std::string text =
       OIIO::Strutil::base64_encode(std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
   write_file_atomically(file, "document.currentScript.pixels=\"data:image/png;base64," + text + "\";\n");

@@ -91,13 +91,11 @@ Camera camera_at_distance(const Scene& scene, double factor) {
 Environment supplied_environment() {
   Environment studio{.name = "studio", .radiance = nullptr};
   Image map(256, 128, 3);
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const double radiance =
-          studio_radiance(environment_direction(studio, (x + 0.5) / map.width, (y + 0.5) / map.height));
-      std::ranges::fill(map.at(x, y), static_cast<float>(radiance));
-    }
-  }
+  for_each_texel(map, [&](int x, int y) {
+    const double radiance =
+        studio_radiance(environment_direction(studio, (x + 0.5) / map.width, (y + 0.5) / map.height));
+    std::ranges::fill(map.at(x, y), static_cast<float>(radiance));
+  });
   studio.radiance = std::make_shared<const Image>(std::move(map));
   return studio;
 }

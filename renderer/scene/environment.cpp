@@ -68,27 +68,14 @@ void require_finite(const Image& image, const std::string& name) {
 
 // Three channels of an image that has one or four; of four in place, as the largest take gigabytes.
 Image with_three_channels(Image image) {
-  if (image.channels == 1) {
-    Image out(image.width, image.height, 3);
-    for (std::size_t i = 0; i < out.texels.size(); ++i) out.texels[i] = image.texels[i / 3];
-    return out;
-  }
+  if (image.channels == 1)
+    return mapped(image, 3, [](const auto& in, const auto& out) { std::ranges::fill(out, in[0]); });
   for (std::size_t i = 0; i < image.texel_count(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) image.texels[3 * i + c] = image.texels[4 * i + c];
   }
   image.channels = 3;
   image.texels.resize(3 * image.texel_count());
   return image;
-}
-
-std::size_t clamp_negative(Image& image) {
-  std::size_t count = 0;
-  for (float& value : image.texels) {
-    if (value >= 0.0F) continue;
-    value = 0.0F;
-    ++count;
-  }
-  return count;
 }
 
 constexpr int sky_width = 1024;
@@ -132,18 +119,16 @@ void add_sun_and_ground(Environment& sky, Image& map, const glm::dvec3& sun) {
   const glm::dvec3 mean = 2.0 * mean_radiance(map);  // over the upper half: the lower one is still black
   const glm::dvec3 irradiance = sun_share * pi * mean;
   const glm::dvec3 ground = ground_albedo * ground_color * (mean + irradiance * sun.y / pi);
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const glm::dvec3 direction = environment_direction(sky, (x + 0.5) / map.width, (y + 0.5) / map.height);
-      glm::dvec3 added = ground;
-      if (direction.y >= 0.0) {
-        const glm::dvec3 offset = direction - sun;
-        added = irradiance * sun_color * sun_sharpness / (2.0 * pi) *
-                std::exp(-0.5 * sun_sharpness * glm::dot(offset, offset));
-      }
-      for (int c = 0; c < 3; ++c) map.at(x, y)[static_cast<std::size_t>(c)] += static_cast<float>(added[c]);
+  for_each_texel(map, [&](int x, int y) {
+    const glm::dvec3 direction = environment_direction(sky, (x + 0.5) / map.width, (y + 0.5) / map.height);
+    glm::dvec3 added = ground;
+    if (direction.y >= 0.0) {
+      const glm::dvec3 offset = direction - sun;
+      added = irradiance * sun_color * sun_sharpness / (2.0 * pi) *
+              std::exp(-0.5 * sun_sharpness * glm::dot(offset, offset));
     }
-  }
+    for (int c = 0; c < 3; ++c) map.at(x, y)[static_cast<std::size_t>(c)] += static_cast<float>(added[c]);
+  });
 }
 
 constexpr double least_share = 0.01;
@@ -325,8 +310,10 @@ Environment load_environment(const std::filesystem::path& file, std::vector<std:
   }
   if (image.channels != 3) image = with_three_channels(std::move(image));
   require_finite(image, file.string());
-  if (const std::size_t negative = clamp_negative(image); negative > 0)
-    warnings.push_back(fmt::format("{}: {} negative values of radiance are taken as 0", name, negative));
+  const auto is_negative = [](float value) { return value < 0.0F; };
+  if (const auto count = std::ranges::count_if(image.texels, is_negative); count > 0)
+    warnings.push_back(fmt::format("{}: {} negative values of radiance are taken as 0", name, count));
+  std::ranges::replace_if(image.texels, is_negative, 0.0F);
   if (image.width > largest_environment_width || image.height > largest_environment_width / 2) {
     warnings.push_back(fmt::format("{}: {} x {} texels are averaged down to {} x {}", name, image.width, image.height,
                                    largest_environment_width, largest_environment_width / 2));

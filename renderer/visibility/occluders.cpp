@@ -19,17 +19,10 @@ constexpr float relative_offset = 1e-4F;
 }
 
 int wrapped(int texel, int size, Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return ((texel % size) + size) % size;
-    case Wrap::mirrored_repeat: {
-      const int there = ((texel % (2 * size)) + 2 * size) % (2 * size);
-      return there < size ? there : 2 * size - 1 - there;
-    }
-    case Wrap::clamp_to_edge:
-      break;
-  }
-  return std::clamp(texel, 0, size - 1);
+  if (wrap == Wrap::clamp_to_edge) return std::clamp(texel, 0, size - 1);
+  const int period = wrap == Wrap::repeat ? size : 2 * size;
+  const int there = ((texel % period) + period) % period;
+  return there < size ? there : 2 * size - 1 - there;
 }
 
 // Texture coordinates may be a million tiles away, which still fits an int for 16384 texels, but no more.
@@ -54,10 +47,7 @@ auto interpolated(const std::array<const Vertex*, 3>& corners, const SurfacePoin
 // The last channel of the base-colour map, where an alpha mask needs it.
 Image alpha_of(const Material& material) {
   if (!material.alpha_cutoff || !material.base_color_map) return {};
-  const Image color = material.base_color_map->image.decoded();
-  Image alpha(color.width, color.height, 1);
-  for (std::size_t i = 0; i < alpha.texels.size(); ++i) alpha.texels[i] = color.texels[4 * i + 3];
-  return alpha;
+  return mapped(material.base_color_map->image.decoded(), 1, [](const auto& in, const auto& out) { out[0] = in[3]; });
 }
 
 bool is_there(const Mesh& mesh, const Material& material, const Image& alpha_map, const SurfacePoint& point) {

@@ -3,7 +3,6 @@
 // studs: metal domes, satin to polished, on a matt ground: normals and BRDF vary together.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <numbers>
 #include <optional>

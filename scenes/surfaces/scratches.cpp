@@ -1,7 +1,6 @@
 // scratches: thin straight scratches in random directions on a flat ground.
 // scratched_metal: many scratches of all depths on a slightly rough ground, after Atanasov et al. 2020, Figure 1, whose
 // normal maps are not published.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -192,9 +192,8 @@ void tile(glm::vec2 tiling, Material& material) {
 
 // Roughness beside a constant metalness, as Material::metallic_roughness_map has them.
 Image with_metallic(const Image& roughness, float metallic) {
-  Image map(roughness.width, roughness.height, 2, metallic);
-  for (std::size_t i = 0; i < map.texel_count(); ++i) map.texels[2 * i] = roughness.texels[3 * i];
-  return map;
+  return mapped(
+      roughness, 2, [](const auto& in, const auto& out) { out[0] = in[0]; }, metallic);
 }
 
 Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution distribution) {

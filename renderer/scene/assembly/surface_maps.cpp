@@ -93,28 +93,16 @@ void require_unit_vectors(const Image& stored) {
 // Throws Error (usage) that names the first texel whose first channel is not `valid`.
 template <class Valid>
 void require_values(const Image& stored, const Valid& valid, const std::string& fault, const std::string& hint) {
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) {
-      const float value = stored.at(x, y)[0];
-      if (valid(value)) continue;
-      throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y), fmt::format("contains {}, {}", value, fault),
-                  hint);
-    }
-  }
-}
-
-// A map whose texels `decode` (stored texel, texel) changes, from 1.
-template <class Decode>
-Image decoded(const Image& stored, int channels, const Decode& decode) {
-  Image map(stored.width, stored.height, channels, 1.0F);
-  for (int y = 0; y < stored.height; ++y) {
-    for (int x = 0; x < stored.width; ++x) decode(stored.at(x, y), map.at(x, y));
-  }
-  return map;
+  for_each_texel(stored, [&](int x, int y) {
+    const float value = stored.at(x, y)[0];
+    if (valid(value)) return;
+    throw Error(ErrorKind::usage, fmt::format("texel ({}, {})", x, y), fmt::format("contains {}, {}", value, fault),
+                hint);
+  });
 }
 
 Image first_channel(const Image& stored) {
-  return decoded(stored, 1, [](const auto& in, const auto& out) { out[0] = in[0]; });
+  return mapped(stored, 1, [](const auto& in, const auto& out) { out[0] = in[0]; });
 }
 
 // A row or column from -1 to `size`, within the map. A mirrored map repeats its border texel.
@@ -122,17 +110,11 @@ int neighbour(int at, int size, Wrap wrap) {
   return wrap == Wrap::repeat ? (at + size) % size : std::clamp(at, 0, size - 1);
 }
 
-// The weights of a difference two texels wide: of both rows beside the texel's own, and of its own.
-std::pair<double, double> row_weights(SlopeFilter filter) {
-  switch (filter) {
-    case SlopeFilter::sobel:
-      return {1.0 / 8.0, 2.0 / 8.0};
-    case SlopeFilter::scharr:
-      return {3.0 / 32.0, 10.0 / 32.0};
-    case SlopeFilter::central:
-      break;
-  }
-  return {0.0, 0.5};
+// The weights of three rows in a difference two texels wide.
+std::array<double, 3> row_weights(SlopeFilter filter) {
+  if (filter == SlopeFilter::sobel) return {1.0 / 8.0, 2.0 / 8.0, 1.0 / 8.0};
+  if (filter == SlopeFilter::scharr) return {3.0 / 32.0, 10.0 / 32.0, 3.0 / 32.0};
+  return {0.0, 0.5, 0.0};
 }
 
 MapTexels stored_heights(const Image& stored, double scale, const HeightSettings& settings) {
@@ -217,8 +199,7 @@ Image normals_of_heights(const Image& stored, double scale, const HeightSettings
         stored.at(neighbour(x, stored.width, settings.wrap[0]), neighbour(y, stored.height, settings.wrap[1]))[0]);
   };
   const double per_texel = scale * stored.width;  // texels are square
-  const auto [side, middle] = row_weights(settings.filter);
-  const std::array weights{side, middle, side};
+  const std::array<double, 3> weights = row_weights(settings.filter);
   Image map(stored.width, stored.height, 4, 1.0F);
   tbb::parallel_for(0, stored.height, [&](int y) {
     for (int x = 0; x < stored.width; ++x) {
@@ -256,7 +237,7 @@ std::span<const float> texel_under(const Image& map, int x, int y, int width, in
 
 Image decode_metallic_roughness(const Image& stored, float roughness_factor, float metallic_factor) {
   const bool color = stored.channels >= 3;
-  return decoded(stored, 2, [&](const auto& in, const auto& out) {
+  return mapped(stored, 2, [&](const auto& in, const auto& out) {
     out[0] = roughness_factor * clamped_to_unit(in[color ? 1 : 0]);
     out[1] = metallic_factor * clamped_to_unit(in[color ? 2 : 0]);
   });
@@ -264,7 +245,7 @@ Image decode_metallic_roughness(const Image& stored, float roughness_factor, flo
 
 Image decode_factor(const Image& stored, int channel, float factor) {
   const auto from = static_cast<std::size_t>(stored.channels >= 3 ? channel : 0);
-  return decoded(stored, 1, [&](const auto& in, const auto& out) { out[0] = factor * clamped_to_unit(in[from]); });
+  return mapped(stored, 1, [&](const auto& in, const auto& out) { out[0] = factor * clamped_to_unit(in[from]); });
 }
 
 Image decode_lobe_parameter(const Image& stored, double least, double most) {
@@ -295,7 +276,7 @@ std::vector<Image> decode_indices(const Image& stored, std::size_t count) {
 
 Image to_rgb(const Image& stored) {
   const bool color = stored.channels >= 3;
-  return decoded(stored, 3, [&](const auto& in, const auto& out) {
+  return mapped(stored, 3, [&](const auto& in, const auto& out) {
     for (std::size_t c = 0; c < 3; ++c) out[c] = clamped_to_unit(in[color ? c : 0]);
   });
 }
@@ -303,22 +284,17 @@ Image to_rgb(const Image& stored) {
 Image to_rgba(const Image& stored) {
   const bool color = stored.channels >= 3;
   const bool alpha = stored.channels % 2 == 0;
-  return decoded(stored, 4, [&](const auto& in, const auto& out) {
+  const auto write = [&](const auto& in, const auto& out) {
     for (std::size_t c = 0; c < 3; ++c) out[c] = clamped_to_unit(in[color ? c : 0]);
     if (alpha) out[3] = clamped_to_unit(in.back());
-  });
+  };
+  return mapped(stored, 4, write, 1.0F);
 }
 
 Lobe convolved(const Lobe& base, double kappa) {
   const double own = base.parameter;
-  switch (base.distribution) {
-    case NormalDistribution::blinn_phong:
-    case NormalDistribution::vmf:
-      return {base.distribution, kappa * own / (kappa + own)};
-    case NormalDistribution::beckmann:
-    case NormalDistribution::ggx:
-      break;
-  }
+  if (base.distribution == NormalDistribution::blinn_phong || base.distribution == NormalDistribution::vmf)
+    return {base.distribution, kappa * own / (kappa + own)};
   const double alpha = std::sqrt(own * own + 2.0 / kappa);
   return {base.distribution, base.distribution == NormalDistribution::ggx ? std::min(alpha, 1.0) : alpha};
 }
@@ -329,15 +305,13 @@ void spread_normals(const TextureMap& kappa, Material& material) {
   const Image spreads = kappa.image.decoded(), widths = width != nullptr ? width->image.decoded() : Image(1, 1, 1);
   const bool beside_metalness = metallic_map(material) != nullptr;
   Image out(std::max(spreads.width, widths.width), std::max(spreads.height, widths.height), beside_metalness ? 2 : 1);
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      const auto own = texel_under(widths, x, y, out.width, out.height);
-      const Lobe base = width != nullptr ? lobe_at(material, own[0]) : lobe_of(material);
-      const Lobe lobe = convolved(base, texel_under(spreads, x, y, out.width, out.height)[0]);
-      out.at(x, y)[0] = beside_metalness ? lobe_roughness(lobe) : static_cast<float>(lobe.parameter);
-      if (beside_metalness) out.at(x, y)[1] = own[1];
-    }
-  }
+  for_each_texel(out, [&](int x, int y) {
+    const auto own = texel_under(widths, x, y, out.width, out.height);
+    const Lobe base = width != nullptr ? lobe_at(material, own[0]) : lobe_of(material);
+    const Lobe lobe = convolved(base, texel_under(spreads, x, y, out.width, out.height)[0]);
+    out.at(x, y)[0] = beside_metalness ? lobe_roughness(lobe) : static_cast<float>(lobe.parameter);
+    if (beside_metalness) out.at(x, y)[1] = own[1];
+  });
   std::optional<TextureMap>& map = beside_metalness ? material.metallic_roughness_map : material.lobe_parameter_map;
   map = TextureMap{kappa.name, MapTexels::packed(out), kappa.coordinates};
   material.lobe_parameter.reset();

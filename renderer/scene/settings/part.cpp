@@ -86,17 +86,9 @@ PlaneSettings read_plane(const TomlTable& table, const std::filesystem::path& fo
 }
 
 // The key of a distribution's lobe parameter.
-std::string_view lobe_key(NormalDistribution distribution) {
-  switch (distribution) {
-    case NormalDistribution::blinn_phong:
-      return "exponent";
-    case NormalDistribution::vmf:
-      return "kappa";
-    case NormalDistribution::beckmann:
-    case NormalDistribution::ggx:
-      break;
-  }
-  return "alpha";
+std::string_view lobe_key(std::optional<NormalDistribution> distribution) {
+  if (distribution == NormalDistribution::blinn_phong) return "exponent";
+  return distribution == NormalDistribution::vmf ? "kappa" : "alpha";
 }
 
 /// The one of exponent, alpha and kappa that the table has, if any; it must be the distribution's own.
@@ -105,7 +97,7 @@ std::optional<std::string_view> find_lobe(const TomlTable& table, std::optional<
   for (const std::string_view key : {"exponent", "alpha", "kappa"}) {
     if (!table.has(key)) continue;
     if (found) throw table.error_at(key, "is one lobe parameter too many", "give one of exponent, alpha, kappa");
-    if (key != lobe_key(distribution.value_or(NormalDistribution::ggx))) {
+    if (key != lobe_key(distribution)) {
       throw table.error_at(key, "does not belong to the distribution",
                            "exponent: blinn_phong; alpha: beckmann, ggx; kappa: vmf");
     }
@@ -139,8 +131,7 @@ std::vector<FacetLobe> read_lobes(const TomlTable& brdf, std::optional<NormalDis
                         "leave out the weakest");
   }
   for (const TomlTable& table : tables) {
-    const float parameter =
-        required(table, lobe_key(distribution.value_or(NormalDistribution::ggx)), read_lobe(table, distribution));
+    const float parameter = required(table, lobe_key(distribution), read_lobe(table, distribution));
     if (table.has("weight") != tables.front().has("weight")) {
       throw table.error_at("weight", "is given for some lobes only", "give every lobe a weight, or none");
     }

@@ -18,19 +18,10 @@ const int peaks = 1;              //? else
 //? if normal_variation
 ivec2 peakMapSize() { return textureSize(best_lobes_first, 0).xy; }
 
-// The finest level has one lobe per texel, so the other layers start at the next level.
 Peak peakOf(FootprintTexel texel, int i) {
-  bool finest = texel.level < 0.5;
-  FootprintTexel above = texel;
-  above.level -= 1.0;
-  vec4 stored;
-  if (i == 0) {
-    stored = fetchTexel(best_lobes_first, 0, texel);
-  } else {
-    stored = fetchTexel(best_lobes_rest, i - 1, above);
-  }
+  vec4 stored = layerOf(best_lobes_first, best_lobes_rest, texel, i);
   vec4 spread = vec4(0.0);
-  if (!finest) spread = fetchTexel(best_lobes_rest, peaks - 1 + i, above);
+  if (texel.level >= 0.5) spread = layerOf(best_lobes_first, best_lobes_rest, texel, peaks + i);
   // Texels without a fit have no factor.
   return Peak(directionFromDisc(stored.xy), stored.z, spread.xyz, spread.w > 0.0 ? spread.w : 1.0, stored.w);
 }

@@ -126,26 +126,23 @@ FittedLobe lobe_of_part(const std::array<double, 5>& moments, const cells::PartF
                         spread, shape);
 }
 
-// Lobes over base lobes of their own.
-class Mixture {
- public:
-  // base_variance: slope variance of the lobe's base lobe.
-  void add(FittedLobe lobe, double base_variance, const LobeFamily& family) {
-    sum_ += lobe.weight;
+// A lobe, and the slope variance of the base lobe that it is over.
+using OwnLobe = std::pair<FittedLobe, double>;
+
+// Adds the mixture of lobes over the family's base lobe, unless it is without weight.
+void add_mixture(const std::vector<OwnLobe>& lobes, const LobeFamily& family,
+                 std::vector<std::vector<FittedLobe>>& mixtures) {
+  double sum = 0.0;
+  for (const auto& [lobe, base_variance] : lobes) sum += lobe.weight;
+  if (sum <= 0.0) return;
+  std::vector<FittedLobe>& mixture = mixtures.emplace_back();
+  for (auto [lobe, base_variance] : lobes) {
     const double spread = std::max(base_variance - family.variance(), 0.0);
     lobe.deviation = std::hypot(lobe.deviation, std::sqrt(spread));
-    lobe.weight *= family.energy(spread);
-    lobes_.push_back(lobe);
+    lobe.weight = lobe.weight * family.energy(spread) / sum;
+    mixture.push_back(lobe);
   }
-  void move_to(std::vector<std::vector<FittedLobe>>& mixtures) {
-    for (FittedLobe& lobe : lobes_) lobe.weight /= sum_;
-    if (sum_ > 0.0) mixtures.push_back(std::move(lobes_));
-  }
-
- private:
-  std::vector<FittedLobe> lobes_;
-  double sum_ = 0.0;
-};
+}
 
 std::vector<Image> coarser_levels(const Image& finest) {
   std::vector<Image> levels = mip_chain(finest);
@@ -271,14 +268,14 @@ std::vector<std::vector<FittedLobe>> OtherMethods::at(std::size_t level, std::si
   std::vector<std::vector<FittedLobe>> out;
   const double mean = variances_.empty() ? family.variance() : variances_[level].texels[texel];
   for (const tan_gmm::MixtureChain& mixture : mixtures_) {
-    Mixture lobes;
+    std::vector<OwnLobe> lobes;
     for (const std::vector<Image>& component : mixture) {
       const std::span stored = std::span(component[level].texels).subspan(4 * texel, 4);
-      if (stored[0] >= least_share) lobes.add(lobe_of_component(stored), mean, family);
+      if (stored[0] >= least_share) lobes.emplace_back(lobe_of_component(stored), mean);
     }
-    lobes.move_to(out);
+    add_mixture(lobes, family, out);
   }
-  Mixture lobes;
+  std::vector<OwnLobe> lobes;
   for (std::size_t i = 0; i < count_; ++i) {
     std::array<double, 5> moments{};
     for (std::size_t c = 0; c < moments.size(); ++c) {
@@ -288,9 +285,9 @@ std::vector<std::vector<FittedLobe>> OtherMethods::at(std::size_t level, std::si
     if (moments[0] < least_share) continue;
     const double own =
         part_variances_.empty() ? mean : part_variances_[i / 4][level].texels[4 * texel + i % 4] / moments[0];
-    lobes.add(lobe_of_part(moments, frames_[i], family.shape()), own, family);
+    lobes.emplace_back(lobe_of_part(moments, frames_[i], family.shape()), own);
   }
-  lobes.move_to(out);
+  add_mixture(lobes, family, out);
   return out;
 }
 

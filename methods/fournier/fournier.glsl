@@ -14,15 +14,8 @@ const int peaks = 1;                  //? else
 //? if normal_variation
 ivec2 peakMapSize() { return textureSize(fournier_first, 0).xy; }
 
-// The finest level has one peak per texel, so the other peaks start at the next level.
 Peak peakOf(FootprintTexel texel, int i) {
-  vec4 stored;
-  if (i == 0) {
-    stored = fetchTexel(fournier_first, 0, texel);
-  } else {
-    texel.level -= 1.0;
-    stored = fetchTexel(fournier_rest, i - 1, texel);
-  }
+  vec4 stored = layerOf(fournier_first, fournier_rest, texel, i);
   return Peak(stored.xy, stored.z, stored.w);
 }
 //? end

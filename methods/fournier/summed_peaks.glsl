@@ -13,6 +13,13 @@ struct Effective {
 //? if normal_variation
 ivec2 peakMapSize();                       // of the finest level
 Peak peakOf(FootprintTexel texel, int i);  // heaviest first
+
+// Layer i of a texel. The finest level has the first one only, so the others start at the next level.
+vec4 layerOf(sampler2DArray first, sampler2DArray rest, FootprintTexel texel, int i) {
+  if (i == 0) return fetchTexel(first, 0, texel);
+  texel.level -= 1.0;
+  return fetchTexel(rest, i - 1, texel);
+}
 //? end
 vec3 meanOfNormals(Footprints f);
 Peak upPeak();  // the surface's own normal, with weight 1

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -54,12 +53,11 @@ struct Settings {
   Storage storage = parse_storage(options.word("storage"));
 };
 
-// Lattice and layout of a material's tables; without facets the material has no tables, and a note gives the reason.
+// Lattice and layout of a material's tables; without facets the material has no tables.
 struct Plan {
   std::optional<Facets> facets{};
   Lattice lattice{};
   AtlasLayout layout{};
-  std::vector<std::string> notes{};
 };
 
 // The finest level, not finer than the option `level`, whose tables fit into `megabytes`; at worst the coarsest level.
@@ -71,18 +69,18 @@ int affordable_level(const Facets& facets, const Lattice& lattice, const Setting
   return level;
 }
 
-Plan plan_tables(const Material& material, const Settings& settings, const EffectSet& effects) {
+Plan plan_tables(const Material& material, const Settings& settings, const EffectSet& effects,
+                 std::vector<std::string>& notes) {
   Plan plan;
   plan.facets = facets_of(material, has(effects, Effect::roughness_variation));
   if (!plan.facets) {
-    plan.notes.emplace_back(
-        "the roughness map does not lie on the normal map's texels: lobes at all levels, no tables");
+    notes.emplace_back("the roughness map does not lie on the normal map's texels: lobes at all levels, no tables");
     return plan;
   }
   plan.lattice = lattice_over(*plan.facets, settings.step);
   const int needed = std::max(plan.lattice.nodes.x, plan.lattice.nodes.y);
   if (needed > settings.nodes) {
-    plan.notes.push_back(fmt::format(
+    notes.push_back(fmt::format(
         "the narrowest lobe needs tables of {} nodes along an edge, and `nodes` allows {}: lobes at all levels", needed,
         settings.nodes));
     plan.facets.reset();
@@ -92,7 +90,7 @@ Plan plan_tables(const Material& material, const Settings& settings, const Effec
   const int level = affordable_level(*plan.facets, plan.lattice, settings);
   plan.layout = layout_for(plan.facets->width, plan.facets->height, plan.lattice, level);
   if (level > settings.level)
-    plan.notes.push_back(fmt::format("tables start at level {}: `megabytes` allows no finer one", level));
+    notes.push_back(fmt::format("tables start at level {}: `megabytes` allows no finer one", level));
   return plan;
 }
 
@@ -108,7 +106,6 @@ void add_tables(Plan plan, const Material& material, Storage storage, const Prog
   out.vectors["ndf_atlas_lattice"] = {plan.lattice.nodes, plan.lattice.origin, plan.lattice.step};
   out.scalars["ndf_atlas_wrap_u"] = wrap_number(coordinates.wrap[0]);
   out.scalars["ndf_atlas_wrap_v"] = wrap_number(coordinates.wrap[1]);
-  std::ranges::move(plan.notes, std::back_inserter(out.notes));
 }
 
 // Partitions the normals and adds the moments of each part, as `cells` does.
@@ -118,7 +115,7 @@ void add_parts(const Material& material, const Settings& settings, const Progres
       normal_map_of(material), steepest_slope, {},
       {.parts = settings.parts, .variance = lobe_variance_chain(material).back().texels[0]}, progress);
   const auto frames = cells::part_frames(map, covariance);
-  for (const cells::PartFrame& frame : frames) out.vectors["ndf_atlas_centres"].emplace_back(frame.centre);
+  for (std::size_t k = 0; k < most_parts; ++k) out.vectors["ndf_atlas_centres"].emplace_back(frames[k].centre);
   // The shader reads them by level, because the levels that have tables do not need them.
   out.textures.push_back(make_array_texture("ndf_atlas_moments", cells::moment_chains(map, frames, covariance),
                                             settings.storage, normal_coordinates(material), TextureFilter::by_level));
@@ -132,7 +129,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   append(out.textures, bake_mean_normal(material, settings.storage, effects).textures);
   ProgressParts steps(progress, 2);
   add_parts(material, settings, steps.next(1, ""), out);
-  add_tables(plan_tables(material, settings, effects), material, settings.tables, steps.next(1, ""), out);
+  add_tables(plan_tables(material, settings, effects, out.notes), material, settings.tables, steps.next(1, ""), out);
   return out;
 }
 

@@ -1,8 +1,7 @@
-// Fits levels in parallel fronts of blocks that have the result of scanline order.
+// Fits levels in parallel fronts of texels that have the result of scanline order.
 #include "methods/tan_gmm/mixture_chain.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -43,30 +42,14 @@ struct LevelFit {
   std::span<Image> stored;
   tbb::enumerable_thread_specific<Workspace>& workspaces;
 
-  // A texel needs its neighbours W, NW, N and NE. In the coordinates u = x + y and y all of them have no greater u and
-  // no greater y. Therefore square blocks over (u, y) with equal sums of indices are independent. They run in parallel,
-  // and every texel reads the same neighbours as in scanline order.
+  // A texel needs its neighbours W, NW, N and NE, which have a smaller x + 2 y. Therefore texels of one sum run in
+  // parallel, and every texel reads the same neighbours as in scanline order.
   void run(const std::function<void(double)>& report) const {
-    const int side = std::clamp(level.width / 32, 1, 16);
-    const int rows = (level.height + side - 1) / side;
-    const int reach = (level.width + side - 2) / side;  // row r has the blocks r to r + reach
-    const int fronts = 2 * (rows - 1) + reach + 1;
+    const int fronts = level.width + 2 * (level.height - 1);
     for (int front = 0; front < fronts; ++front) {
-      const int first = std::max(0, (front - reach + 1) / 2);
-      const int last = std::min(rows - 1, front / 2);
-      tbb::parallel_for(tbb::blocked_range<int>(first, last + 1), [&](const tbb::blocked_range<int>& range) {
-        Workspace& workspace = workspaces.local();
-        for (int row = range.begin(); row < range.end(); ++row) fit_block(front - row, row, side, workspace);
-      });
+      const int first = std::max(0, (front - level.width + 2) / 2), last = std::min(level.height - 1, front / 2);
+      tbb::parallel_for(first, last + 1, [&](int y) { fit(front - 2 * y, y, workspaces.local()); });
       report((front + 1.0) / fronts);
-    }
-  }
-
-  void fit_block(int column, int row, int side, Workspace& workspace) const {
-    const int past = std::min((row + 1) * side, level.height);
-    for (int y = row * side; y < past; ++y) {
-      const int end = std::min((column + 1) * side - y, level.width);
-      for (int x = std::max(column * side - y, 0); x < end; ++x) fit(x, y, workspace);
     }
   }
 

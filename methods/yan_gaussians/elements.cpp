@@ -28,12 +28,8 @@ std::span<const float> valid_mean(const std::vector<Image>& chain, int x, int y)
 // Normals of unit length and weight 1.
 Image filled(const Image& normals) {
   std::vector<Image> chain{normals};
-  const bool holes = [&] {
-    for (std::size_t i = 3; i < normals.texels.size(); i += 4) {
-      if (normals.texels[i] <= 0.0F) return true;
-    }
-    return false;
-  }();
+  bool holes = false;
+  for (std::size_t i = 3; i < normals.texels.size(); i += 4) holes = holes || normals.texels[i] <= 0.0F;
   if (holes) chain = weighted_mip_chain(normals);
   Image out(normals.width, normals.height, 4, 1.0F);
   for (int y = 0; y < out.height; ++y) {

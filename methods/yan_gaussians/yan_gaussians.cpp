@@ -55,10 +55,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
   const std::array<Wrap, 2> wrap = normal_coordinates(material).wrap;
   const auto share = [](Wrap along) { return along == Wrap::repeat ? 1.0F : 0.5F; };
   const auto clamped = [](Wrap along) { return along == Wrap::clamp_to_edge ? 1.0F : 0.0F; };
-  out.scalars.insert({{"yan_share_u", share(wrap[0])},
-                      {"yan_share_v", share(wrap[1])},
-                      {"yan_clamp_u", clamped(wrap[0])},
-                      {"yan_clamp_v", clamped(wrap[1])}});
+  out.vectors["yan_wrap"] = {{share(wrap[0]), share(wrap[1])}, {clamped(wrap[0]), clamped(wrap[1])}};
   progress("elements", 0.0);
   Elements elements = make_elements(material, options.word("jacobian") == "central");
   progress("hierarchy over positions and normals", 0.1);

@@ -2,8 +2,8 @@
 //? if normal_variation
 // The footprint on the stored map, which appends the mirror image of a map that does not repeat.
 Footprint folded(Footprint f) {
-  vec2 share = vec2(yan_share_u, yan_share_v);
-  f.uv = mix(f.uv, clamp(f.uv, 0.0, 1.0), vec2(yan_clamp_u, yan_clamp_v)) * share;
+  vec2 share = yan_wrap[0];
+  f.uv = mix(f.uv, clamp(f.uv, 0.0, 1.0), yan_wrap[1]) * share;
   f.dx *= share;
   f.dy *= share;
   return f;

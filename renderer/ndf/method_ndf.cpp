@@ -88,23 +88,16 @@ MethodNdf::MethodNdf(const gl::ContextInfo& context, GpuScene& scene, const Bake
 }
 
 void MethodNdf::set_footprint(const FootprintRect& rect) const {
-  const MappedFootprint roughness = roughness_footprint(*material_, rect);
-  const glm::dvec2 size = rect.size();
-  const std::array<MappedFootprint, 3> slots{
-      {{rect.centre(), {size.x, 0.0}, {0.0, size.y}}, roughness, {rect.centre(), {size.x, 0.0}, {0.0, size.y}}}};
-  std::array<glm::vec2, 3> centres{}, along_u{}, along_v{};
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    centres.at(i) = slots.at(i).centre;
-    along_u.at(i) = slots.at(i).along_u;
-    along_v.at(i) = slots.at(i).along_v;
-  }
-  const auto set = [&](const char* name, const std::array<glm::vec2, 3>& values) {
+  const MappedFootprint own{rect.centre(), {rect.size().x, 0.0}, {0.0, rect.size().y}},
+      roughness = roughness_footprint(*material_, rect);
+  const auto set = [&](const char* name, glm::dvec2 MappedFootprint::*part) {
+    const std::array<glm::vec2, 3> values{own.*part, roughness.*part, own.*part};
     const GLint location = program_.uniform(name);
     if (location >= 0) gl::api().ProgramUniform2fv(program_.name(), location, 3, &values.front().x);
   };
-  set("footprint_uv", centres);
-  set("footprint_dx", along_u);
-  set("footprint_dy", along_v);
+  set("footprint_uv", &MappedFootprint::centre);
+  set("footprint_dx", &MappedFootprint::along_u);
+  set("footprint_dy", &MappedFootprint::along_v);
 }
 
 void MethodNdf::draw(const gl::RenderTarget& target, const gl::Texture& directions) const {

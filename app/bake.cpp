@@ -145,7 +145,7 @@ std::string summary(const BakeToFiles& bake) {
 }
 
 void run_bake(const BakeArguments& arguments) {
-  const RunSettings run = arguments.run.settings();
+  const RunSettings run = arguments.settings();
   const std::vector<ShaderLanguage> languages = languages_of(arguments.languages);
   require_room(arguments.output);
   if (arguments.gltf) require_gltf(run.scene);
@@ -223,7 +223,7 @@ void write_shader(const BakeToFiles& bake, ShaderLanguage language, const std::s
 }
 
 void run_shader(const ShaderArguments& arguments) {
-  const RunSettings run = arguments.run.settings();
+  const RunSettings run = arguments.settings();
   const ShaderLanguage language = word_value(shader_languages, arguments.language, "language", "--language");
   if (language == ShaderLanguage::spirv && arguments.output.empty())
     throw Error(ErrorKind::usage, "--language spirv", "is binary", "name a file with -o");

@@ -4,16 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <numeric>
-#include <system_error>
 
 #include "app/child_process.hpp"
 #include "app/experiment_runs.hpp"
-#include "app/part_file.hpp"
 #include "app/subcommand.hpp"
-#include "experiments/studies/compare.hpp"
 #include "renderer/core/process.hpp"
 
 namespace footprint {
@@ -62,7 +58,7 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
 }
 
 void run_compare_command(const CompareArguments& arguments) {
-  const RunSettings settings = arguments.run.settings();
+  const RunSettings settings = arguments.settings();
   ProgressDisplay display(progress_style(arguments.quiet));
   if (!arguments.timing_file.empty()) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
@@ -108,7 +104,7 @@ struct AnimateArguments : RunArguments {
 
 // Nothing is measured but what frames differ by.
 RunSettings settings_of(const AnimateArguments& arguments) {
-  RunSettings settings = arguments.run.settings();
+  RunSettings settings = arguments.settings();
   settings.reference.by_cause = false;
   settings.reference.supersampling = {};
   settings.timing.repeats = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <regex>
 
@@ -20,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The times of the further processes of an experiment.
 FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scratch, const Progress& progress) {
   return times_of_processes(experiment.run.timing.processes - 1, {timing_member_option, experiment.full_name()},
                             scratch, progress);
@@ -39,7 +39,6 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
   return results;
 }
 
-// The report over all members together.
 ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results> members, const fs::path& output) {
   const Experiment& whole = group.judged();
   MatrixResults results{.report = judge(whole, members), .left_out = group.left_out};
@@ -76,36 +75,27 @@ void run_group(const RequestedExperiments& requested, const ExperimentGroup& gro
   listener.matrix(report_matrix(group, std::move(all), output / requested.folder_of(*group.matrix)));
 }
 
-// The units of all experiments in one row: which experiment each is of.
-struct Assigned {
-  const Experiment* experiment;
-  WorkUnit unit;
-};
-
-std::vector<Assigned> all_units(const RequestedExperiments& requested) {
-  std::vector<Assigned> all;
+std::vector<WorkUnit> all_units(const RequestedExperiments& requested) {
+  std::vector<WorkUnit> all;
   for (const ExperimentGroup& group : requested.groups) {
-    for (const Experiment& experiment : group.experiments) {
-      for (WorkUnit& unit : work_units(experiment)) all.push_back({&experiment, std::move(unit)});
-    }
+    for (const Experiment& experiment : group.experiments)
+      std::ranges::move(work_units(experiment), std::back_inserter(all));
   }
   return all;
 }
 
 // Distances of one experiment that are next to each other are done at once: it is set up once.
-std::vector<Assigned> share_of(const std::vector<Assigned>& all, const Shard& shard) {
+std::vector<WorkUnit> share_of(const std::vector<WorkUnit>& all, const Shard& shard) {
   const auto [first, last] = range_of(shard, all.size());
-  std::vector<Assigned> share;
-  for (std::size_t i = first; i < last; ++i) {
-    const std::vector<std::size_t>& distances = all[i].unit.distances;
-    const bool goes_on = !share.empty() && share.back().experiment == all[i].experiment &&
-                         !share.back().unit.distances.empty() && !distances.empty();
-    if (!goes_on) {
-      share.push_back(all[i]);
-      continue;
+  std::vector<WorkUnit> share;
+  for (const WorkUnit& unit : std::span(all).subspan(first, last - first)) {
+    const bool goes_on = !share.empty() && share.back().experiment == unit.experiment &&
+                         !share.back().distances.empty() && !unit.distances.empty();
+    if (goes_on) {
+      std::ranges::copy(unit.distances, std::back_inserter(share.back().distances));
+    } else {
+      share.push_back(unit);
     }
-    std::vector<std::size_t>& before = share.back().unit.distances;
-    before.insert(before.end(), distances.begin(), distances.end());
   }
   return share;
 }
@@ -178,7 +168,6 @@ std::vector<ExperimentGroup> members_of(const Experiment& named, const Experimen
   return members;
 }
 
-// The experiment that is named, or its members.
 std::vector<ExperimentGroup> groups_of(const Experiment& named, const ExperimentRequest& request) {
   if (named.axes.empty() && named.members.empty()) {
     if (request.only.empty()) return {{.experiments = {named}}};
@@ -237,9 +226,10 @@ RequestedExperiments requested_experiments(const ExperimentRequest& request) {
 
 fs::path finished_work_folder(const fs::path& output) { return output / "kept"; }
 
-std::string reuse_text(const FinishedWork& finished) {
-  return fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)",
-                     finished.reused(), finished.folder().string());
+void write_reuse(const FinishedWork& finished, bool quiet) {
+  if (finished.reused() > 0 && !quiet)
+    write_message(fmt::format("{} finished parts of an earlier run were reused from {} (--fresh measures again)",
+                              finished.reused(), finished.folder().string()));
 }
 
 FinishedWork finished_work_of(const RunSettings& run, const fs::path& output, bool fresh) {
@@ -299,7 +289,7 @@ std::optional<Error> run_and_print(const RequestedExperiments& requested, const 
 void run_part(const RequestedExperiments& requested, const Shard& shard, const fs::path& output,
               const FinishedWork& finished, bool quiet) {
   const OutputFolder scratch(output);  // never moved to its place
-  const std::vector<Assigned> share = share_of(all_units(requested), shard);
+  const std::vector<WorkUnit> share = share_of(all_units(requested), shard);
   std::map<const Experiment*, std::shared_ptr<NoiseGuard>> guards;
   for (const ExperimentGroup& group : requested.groups) {
     const auto guard = std::make_shared<NoiseGuard>(group.judged(), group.experiments);
@@ -307,14 +297,15 @@ void run_part(const RequestedExperiments& requested, const Shard& shard, const f
   }
   ProgressDisplay display(progress_style(quiet));
   ProgressParts parts(display.callback(), static_cast<double>(share.size()));
-  for (const auto& [experiment, unit] : share) {
-    const Progress progress = parts.next(1, experiment->full_name() + ": ");
-    const fs::path pictures = scratch.path() / experiment->full_name();
+  for (const WorkUnit& unit : share) {
+    const Experiment& experiment = *unit.experiment;
+    const Progress progress = parts.next(1, experiment.full_name() + ": ");
+    const fs::path pictures = scratch.path() / experiment.full_name();
     fs::create_directories(pictures);
-    measure_unit(*experiment, unit, pictures, progress,
-                 {.further_times = further_times_of(*experiment, pictures, progress),
+    measure_unit(unit, pictures, progress,
+                 {.further_times = further_times_of(experiment, pictures, progress),
                   .finished = &finished,
-                  .watch = guards.at(experiment)->watch(*experiment),
+                  .watch = guards.at(&experiment)->watch(experiment),
                   .gpu_compiler = amd_compiler_if_installed()});
   }
   display.finish();

@@ -1,7 +1,6 @@
 // The experiments that a command line requests, and their runs to reports or to parts that are merged later.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -52,8 +51,8 @@ struct RequestedExperiments {
 /// The folder below a run's output folder in which its finished work is stored.
 [[nodiscard]] std::filesystem::path finished_work_folder(const std::filesystem::path& output);
 
-/// A message on the parts of an earlier run that were reused, with the option to measure again.
-[[nodiscard]] std::string reuse_text(const FinishedWork& finished);
+/// Unless `quiet`, a message on the parts of an earlier run that were reused, with the option to measure again.
+void write_reuse(const FinishedWork& finished, bool quiet);
 
 /// The finished work of a run with these settings below its output folder.
 /// fresh: discards that of earlier runs. Errors (machine): no OpenGL.

@@ -153,9 +153,8 @@ Json passes_of(const Stage& stage) {
   return passes;
 }
 
-// Everything that `explain` reports, as --json prints it.
 Json explain(const ExplainArguments& arguments, const Progress& progress) {
-  const RunSettings run = arguments.run.settings();
+  const RunSettings run = arguments.settings();
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
   const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""));
   const BakedMethod& baked = stage.methods().front().baked();
@@ -268,7 +267,7 @@ struct CostArguments : RunArguments {
 };
 
 void run_cost(const CostArguments& arguments) {
-  const RunSettings settings = arguments.run.settings();
+  const RunSettings settings = arguments.settings();
   ProgressDisplay display(progress_style(arguments.quiet));
   CostReport report = estimate_costs(settings, amd_compiler(), display.callback());
   display.finish();

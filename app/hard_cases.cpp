@@ -1,5 +1,5 @@
 // `footprint check hard_cases` of a program built without tests: tests/hard_cases/ defines it otherwise.
-#include "app/hard_cases.hpp"
+#include "app/commands.hpp"
 
 #include "renderer/core/error.hpp"
 

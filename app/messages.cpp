@@ -55,10 +55,7 @@ std::string printable_line(std::string_view text) {
   return line;
 }
 
-void write_message(std::string_view text) {
-  // If standard error is closed, there is nowhere left to report that.
-  (void)std::fputs(("footprint: " + printable_line(text) + "\n").c_str(), stderr);
-}
+void write_message(std::string_view text) { write_to_stderr("footprint: " + printable_line(text) + "\n"); }
 
 void write_scene_notes(const Scene& scene, bool quiet) {
   for (const std::string& warning : scene.warnings) write_message("warning: " + warning);

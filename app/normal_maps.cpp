@@ -1,8 +1,6 @@
 // `footprint surface`, `footprint statistics` and `footprint ndf`: the normal map of a procedural surface for other
 // tools, what a normal map is like by the size of a footprint, and each method's NDF of the facets under one.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,6 +9,7 @@
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/bake/map_statistics.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
@@ -263,19 +262,14 @@ struct NdfArguments : RunArguments {
 };
 
 FootprintRect parse_rectangle(const std::string& option, const std::string& text) {
-  std::array<double, 4> values{};
-  const char* next = text.data();
-  const char* const end = text.data() + text.size();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto [stop, status] = std::from_chars(next, end, values.at(i));
-    const bool last = i + 1 == values.size();
-    if (status != std::errc{} || (last ? stop != end : stop == end || *stop != ',')) {
-      throw Error(ErrorKind::usage, option, fmt::format("`{}` is not a rectangle", text),
-                  "give four numbers u0,v0,u1,v1 comma-separated, for example 0,0,0.5,0.5");
-    }
-    next = stop + 1;
+  const std::vector<std::string> parts = parts_of(text);
+  std::vector<double> values;
+  for (const std::string& part : parts) {
+    if (const auto value = parse_whole_of<double>(part)) values.push_back(*value);
   }
-  return {{values[0], values[1]}, {values[2], values[3]}};
+  if (parts.size() == 4 && values.size() == 4) return {{values[0], values[1]}, {values[2], values[3]}};
+  throw Error(ErrorKind::usage, option, fmt::format("`{}` is not a rectangle", text),
+              "give four numbers u0,v0,u1,v1 comma-separated, for example 0,0,0.5,0.5");
 }
 
 // The footprint in texture coordinates, given in them or in texels.
@@ -295,7 +289,7 @@ FootprintRect footprint_of(const NdfArguments& arguments, const Material& materi
 
 void run_ndf(const NdfArguments& arguments) {
   NdfSettings settings{
-      .run = arguments.run.settings(), .resolution = arguments.resolution, .picture = arguments.picture_size};
+      .run = arguments.settings(), .resolution = arguments.resolution, .picture = arguments.picture_size};
   if (!arguments.footprint.empty()) (void)parse_rectangle("--region", arguments.footprint);
   if (!arguments.texels.empty()) (void)parse_rectangle("--texels", arguments.texels);
   const std::optional<Lobe> lobe =

@@ -5,14 +5,11 @@
 #include <fmt/ranges.h>
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <memory>
 #include <new>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "app/help.hpp"
 #include "app/messages.hpp"
@@ -41,7 +38,6 @@ constexpr const char* program_examples =
 Exit codes: 0 success, 1 a check failed, 2 bad command line or input, 3 not possible on this machine,
 130 interrupted.)";
 
-// Adds the subcommands, grouped by purpose.
 void add_subcommands(CLI::App& app) {
   const auto add = [&app](const std::string& heading, const std::vector<void (*)(CLI::App&)>& commands) {
     const std::size_t before = app.get_subcommands({}).size();

@@ -2,13 +2,13 @@
 #include "experiments/studies/recommend.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "app/child_process.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
 #include "app/subcommand.hpp"
+#include "renderer/core/numbers.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -88,11 +88,9 @@ void require_positive(const char* option, const std::optional<double>& value) {
 void set_max_cost(const std::string& text, RecommendSettings& settings) {
   if (text.empty()) return;
   const auto at = std::min(text.find('@'), text.size());
-  double limit = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + at, limit);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + at)
+  settings.limits.max_cost = parse_whole_of<double>(std::string_view(text).substr(0, at));
+  if (!settings.limits.max_cost)
     throw Error(ErrorKind::usage, "--max-cost", fmt::format("`{}` is not a limit", text), "give R or R@GPU, as 2@PS4");
-  settings.limits.max_cost = limit;
   require_positive("--max-cost", settings.limits.max_cost);
   if (at == text.size()) return;
   const std::vector<const Chip*> chips = chips_named("--max-cost", {text.substr(at + 1)});
@@ -122,7 +120,7 @@ void run_quick_command(const RecommendArguments& arguments, const RecommendSetti
 
 void run_recommend_command(const RecommendArguments& arguments) {
   require_positive("--max-error", arguments.limits.max_error);
-  RecommendSettings settings{.run = arguments.run.settings(),
+  RecommendSettings settings{.run = arguments.settings(),
                              .filters = parse_filters(arguments.filters),
                              .limits = arguments.limits,
                              .exhaustive = arguments.exhaustive,
@@ -154,7 +152,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
   });
   display.finish();
   write_output(fmt::format("{}\npage: {}\n", recommendation_text(result), (path / "index.html").string()));
-  if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
+  write_reuse(finished, arguments.quiet);
 }
 
 }  // namespace

@@ -57,14 +57,14 @@ void save_picture(const std::filesystem::path& path, const Image& picture, const
 
 // The settings of the stage, which always has the reference and does not take it as a method. Options of the reference
 // are refused with a method, which would ignore them.
-RunSettings staged(const RunOptions& options) {
-  RunSettings run = options.settings();
+RunSettings staged(const RunArguments& arguments) {
+  RunSettings run = arguments.settings();
   const std::string method = run.methods.front().text;
   if (method == "reference") {
     run.methods.clear();
     return run;
   }
-  for (const std::string& option : options.given_of("reference")) {
+  for (const std::string& option : arguments.given_of("reference")) {
     throw Error(ErrorKind::usage, option, fmt::format("`{}` takes one sample per pixel", method),
                 "use it with --method reference");
   }
@@ -74,7 +74,7 @@ RunSettings staged(const RunOptions& options) {
 void run_render(const RenderArguments& arguments) {
   const std::filesystem::path path =
       image_path(arguments.output, "use the extension .exr for linear radiance, or .png for display");
-  const RunSettings run = staged(arguments.run);
+  const RunSettings run = staged(arguments);
   Scene scene = load_scene(run.scene, run.scene_library, run.overrides);
   const double distance = distance_factor(run.view.distances.front(), arguments.zoom_frame, scene);
 
@@ -119,24 +119,21 @@ struct EditArguments : RunArguments {
 };
 
 EditSettings settings_from(const EditArguments& arguments) {
-  EditSettings settings{.run = arguments.run.settings(), .frames = arguments.frames};
+  EditSettings settings{.run = arguments.settings(), .frames = arguments.frames};
   for (const std::string& set : arguments.sets) settings.sweeps.push_back(parse_sweep(set));
   if (settings.run.methods.front().name == "reference")
     throw Error(ErrorKind::usage, "--method", "`reference` has no precompute to time", "name a method");
   return settings;
 }
 
-EditRun edit_into(OutputFolder& folder, const EditSettings& settings, const Progress& progress) {
-  EditRun run = run_edit(settings, folder.path(), progress);
-  keep_results(run, folder, write_edit, "edit.json");
-  return run;
-}
-
 void run_edit_command(const EditArguments& arguments) {
   const EditSettings settings = settings_from(arguments);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [run, path] = write_whole(
-      arguments.output, [&](OutputFolder& folder) { return edit_into(folder, settings, display.callback()); });
+  const auto [run, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    EditRun edits = run_edit(settings, folder.path(), display.callback());
+    keep_results(edits, folder, write_edit, "edit.json");
+    return edits;
+  });
   display.finish();
   write_output(fmt::format("{}\nframes: {}\n", edit_table(run), (path / "images").string()));
 }

@@ -1,20 +1,15 @@
 // `footprint run` and `footprint check`: an experiment, its figures beside the published ones, and its claims; and
 // `footprint merge`: the parts of a run, made by `run --shard`, joined to its report.
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <system_error>
 
 #include "app/child_process.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
-#include "app/hard_cases.hpp"
-#include "app/part_file.hpp"
 #include "app/subcommand.hpp"
 #include "experiments/runner/run_experiment.hpp"
-#include "experiments/studies/finished_work.hpp"
 #include "renderer/core/bytes.hpp"
-#include "renderer/core/process.hpp"
 #include "results/report/experiment_report.hpp"
 
 namespace footprint {
@@ -55,7 +50,6 @@ struct CheckReports {
   bool update = false;   ///< write it instead
 };
 
-// Those of `run` and of `check`.
 struct ExperimentArguments : RunArguments {
   explicit ExperimentArguments(CLI::App& command) : RunArguments(command) {
     auto* named = add_value(command, "experiment", experiment, "EXPERIMENT", "Name, or path to a TOML file or folder");
@@ -102,7 +96,7 @@ RequestedExperiments requested(const ExperimentArguments& arguments) {
   return requested_experiments({.experiment = arguments.all ? experiments_folder().string() : arguments.experiment,
                                 .only = arguments.only,
                                 .quick = arguments.quick,
-                                .apply = [&](RunSettings& run) { arguments.run.apply(run); }});
+                                .apply = [&](RunSettings& run) { arguments.apply(run); }});
 }
 
 // The job of a timing process: times the frames of one member.
@@ -121,7 +115,7 @@ std::optional<Error> run_all(const ExperimentArguments& arguments, const RunList
   const RequestedExperiments experiments = requested(arguments);
   const FinishedWork finished = finished_work_of(experiments.first().run, arguments.output, arguments.fresh);
   std::optional<Error> failed = run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
-  if (finished.reused() > 0 && !arguments.quiet) write_message(reuse_text(finished));
+  write_reuse(finished, arguments.quiet);
   return failed;
 }
 
@@ -164,13 +158,11 @@ std::optional<Baseline> baseline_of(const CheckReports& reports) {
   throw Error(ErrorKind::usage, reports.baseline, "no such baseline", "--update-baseline writes it");
 }
 
-// Collects the outcomes of runs and reports them.
 class CheckReporter {
  public:
   // Reads the baseline. Errors (usage): it is missing or not a baseline; it is to be updated and not named.
   explicit CheckReporter(const CheckReports& reports) : reports_(reports), baseline_(baseline_of(reports)) {}
 
-  // The outcomes of one run, or of a matrix.
   void add(const ExperimentReport& report) {
     ++runs_;
     std::ranges::move(check_outcomes(report), std::back_inserter(outcomes_));
@@ -236,12 +228,10 @@ void refuse_reports(const CheckReports& reports) {
 void check(const ExperimentArguments& arguments) {
   if (arguments.experiment == hard_cases_name) {
     refuse_reports(arguments.reports);
-    return check_hard_cases({.run = arguments.run.settings(),
-                             .wide = arguments.wide,
-                             .output = arguments.output,
-                             .quiet = arguments.quiet});
+    return check_hard_cases(
+        {.run = arguments.settings(), .wide = arguments.wide, .output = arguments.output, .quiet = arguments.quiet});
   }
-  if (!arguments.run.settings().methods.empty())
+  if (!arguments.settings().methods.empty())
     throw Error(ErrorKind::usage, "--methods", fmt::format("only {} takes methods", hard_cases_name),
                 "leave it out: an experiment names its own");
   if (!arguments.timing_file.empty()) return take_times(arguments);
@@ -286,7 +276,7 @@ struct Part {
 }
 
 // All parts, in the order of their numbers. Errors (usage): one does not go with the first, is there twice, or missing.
-std::vector<Part> parts_of(const std::vector<std::string>& folders) {
+std::vector<Part> read_parts(const std::vector<std::string>& folders) {
   std::vector<Part> parts;
   for (const std::string& folder : folders) {
     const Part& part = parts.emplace_back(Part{folder, read_part_file(folder)});
@@ -317,12 +307,12 @@ std::vector<Part> parts_of(const std::vector<std::string>& folders) {
 }
 
 // As the parts were run. Errors (usage): the files or this program are not what they were.
-RequestedExperiments requested_by(const Part& first, const RunOptions& options) {
+RequestedExperiments requested_by(const Part& first, const RunArguments& arguments) {
   RequestedExperiments requested = requested_experiments({.experiment = first.file.experiment,
                                                           .only = first.file.only,
                                                           .quick = first.file.quick,
                                                           .apply = [&](RunSettings& run) {
-                                                            options.apply(run);
+                                                            arguments.apply(run);
                                                             run.timing.processes = first.file.processes;
                                                             run.backend.tile = first.file.tile;
                                                           }});
@@ -332,7 +322,6 @@ RequestedExperiments requested_by(const Part& first, const RunOptions& options) 
   return requested;
 }
 
-// Copies the finished work of all parts.
 void take_all(const std::vector<Part>& parts, const FinishedWork& finished) {
   for (const Part& part : parts) {
     const FinishedWork from(finished_work_folder(part.folder), finished.maker());
@@ -349,11 +338,11 @@ void merge_animation(const std::vector<Part>& parts, const std::string& output) 
 }
 
 void merge(const MergeArguments& arguments) {
-  const std::vector<Part> parts = parts_of(arguments.parts);
+  const std::vector<Part> parts = read_parts(arguments.parts);
   if (!is_made_by_this_program(parts.front().file.maker))
     refuse(parts.front(), "was made by another program than this one", "merge with the program that ran the parts");
   if (parts.front().file.kind == PartKind::animation) return merge_animation(parts, arguments.output);
-  const RequestedExperiments requested = requested_by(parts.front(), arguments.run);
+  const RequestedExperiments requested = requested_by(parts.front(), arguments);
   const FinishedWork finished(finished_work_folder(arguments.output), parts.front().file.maker, true);
   take_all(parts, finished);
   if (const auto failed = run_and_print(requested, arguments.output, finished, arguments.quiet, {})) throw *failed;

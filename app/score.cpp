@@ -80,7 +80,6 @@ struct ScoreArguments : RunArguments {
   bool github = false;
 };
 
-// The reference of a score.
 struct Reference {
   Image picture;
   Image standard_error;  // empty: not known
@@ -98,7 +97,7 @@ bool names_a_scene(const std::string& reference) {
 Reference rendered_reference(const ScoreArguments& arguments) {
   if (!arguments.standard_error.empty())
     throw Error(ErrorKind::usage, "--standard-error", "the reference of a scene has its own", "leave it out");
-  RunSettings run = arguments.run.settings();
+  RunSettings run = arguments.settings();
   run.scene = arguments.reference;
   const Image first = read_image(arguments.pictures.front(), Transfer::linear);
   run.view.size = {first.width, first.height};
@@ -125,8 +124,8 @@ Image read_standard_error(const std::string& file) {
 // An image. If `footprint compare` wrote it, exposure and standard error are those of its results.json unless they are
 // given, so that equal images have equal errors in both.
 Reference given_reference(const ScoreArguments& arguments) {
-  const RunSettings run = arguments.run.settings();
-  std::vector<std::string> of_scenes = arguments.run.given_of("reference");
+  const RunSettings run = arguments.settings();
+  std::vector<std::string> of_scenes = arguments.given_of("reference");
   if (run.view.distances.front() != 1.0) of_scenes.emplace_back("--distance");
   if (!of_scenes.empty()) {
     throw Error(ErrorKind::usage, of_scenes.front(), fmt::format("{} is an image, not a scene", arguments.reference),
@@ -152,7 +151,6 @@ struct Scores {
   std::size_t pixels = 0, unresolved = 0;
 };
 
-// Tests an image per pixel, if that was requested.
 std::optional<std::size_t> tested(const ScoreArguments& arguments, const ScoredPicture& picture,
                                   const Reference& reference) {
   if (!arguments.significance) return {};
@@ -220,8 +218,7 @@ Json scores_json(const ScoreArguments& arguments, const Scores& scores) {
             {"unresolved", scores.unresolved},
             {"pictures", std::move(pictures)}};
   if (scores.pair) {
-    json["closer"] = {{"shares", {scores.pair->shares.a, scores.pair->shares.b}},
-                      {"beyond_noise", scores.pair->beyond_noise}};
+    json["closer"] = {{"shares", scores.pair->shares}, {"beyond_noise", scores.pair->beyond_noise}};
   }
   return json;
 }
@@ -248,7 +245,7 @@ std::string scores_table(const Scores& scores) {
   if (!scores.pair) return text;
   return text +
          fmt::format("\nThe first is closer to the reference in {:.1f}% of the pixels, the second in {:.1f}%{}\n",
-                     100 * scores.pair->shares.a, 100 * scores.pair->shares.b,
+                     100 * scores.pair->shares[0], 100 * scores.pair->shares[1],
                      scores.pair->beyond_noise ? " (by more than three standard errors of the reference)."
                                                : " (noise unknown: give --standard-error).");
 }
@@ -358,13 +355,6 @@ void write_scores(const ScoreArguments& arguments, std::span<const Scores> all, 
   out.commit();
 }
 
-// Reports the outcomes of limits. Errors (check): one failed.
-void judge(const ScoreArguments& arguments, std::span<const CheckOutcome> outcomes) {
-  if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(outcomes));
-  if (arguments.github) write_output(github_annotations(outcomes));
-  require_none_failed("score", "limits", shortfalls_of(outcomes));
-}
-
 void run_score(const ScoreArguments& arguments) {
   std::vector<ScoreLimit> limits;
   for (const std::string& text : arguments.limits) limits.push_back(parse_score_limit(text));
@@ -385,7 +375,9 @@ void run_score(const ScoreArguments& arguments) {
     text += fmt::format("\nscore: {}\n", (folder / (all.size() == 1 ? "score.json" : "")).string());
   }
   write_output(text);
-  judge(arguments, outcomes);
+  if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(outcomes));
+  if (arguments.github) write_output(github_annotations(outcomes));
+  require_none_failed("score", "limits", shortfalls_of(outcomes));
 }
 
 }  // namespace

@@ -32,14 +32,14 @@ const CLI::Option* add_option(CLI::App& command, const Setting& setting) {
 
 }  // namespace
 
-RunOptions::RunOptions(CLI::App& command) {
+RunArguments::RunArguments(CLI::App& command) {
   for (const Setting& setting : run_settings()) {
     if (std::ranges::find(setting.commands, command.get_name()) == setting.commands.end()) continue;
-    added_.push_back({&setting, add_option(command, setting)});
+    added_.emplace_back(&setting, add_option(command, setting));
   }
 }
 
-void RunOptions::apply(RunSettings& run) const {
+void RunArguments::apply(RunSettings& run) const {
   run.scene_library = scene_library();
   run.cache = default_cache_folder();
   for (const auto& [setting, option] : added_) {
@@ -48,13 +48,13 @@ void RunOptions::apply(RunSettings& run) const {
   }
 }
 
-RunSettings RunOptions::settings() const {
+RunSettings RunArguments::settings() const {
   RunSettings run;
   apply(run);
   return run;
 }
 
-std::vector<std::string> RunOptions::given_of(std::string_view table) const {
+std::vector<std::string> RunArguments::given_of(std::string_view table) const {
   std::vector<std::string> given;
   for (const auto& [setting, option] : added_) {
     if (setting->key.table == table && option->count() > 0) given.emplace_back(option_name(*setting));

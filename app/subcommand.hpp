@@ -27,11 +27,11 @@
 
 namespace footprint {
 
-/// The options of a subcommand that are settings of a run. Must outlive the parsing and running of the subcommand.
-class RunOptions {
- public:
+/// The arguments of a subcommand that has settings of a run, and --quiet. Must outlive the parsing and running of the
+/// subcommand.
+struct RunArguments {
   /// Adds the options that the table has for `command`'s name.
-  explicit RunOptions(CLI::App& command);
+  explicit RunArguments(CLI::App& command);
 
   /// Overwrites settings of `run` with the options given, and sets the folders of scenes and the cache. Call it after
   /// the whole command line has been parsed. Errors (usage) name the option; (machine): an image of --size does not fit
@@ -44,20 +44,10 @@ class RunOptions {
   /// The options given that have a key in [`table`] of an experiment's file: "--spp" of [reference].
   [[nodiscard]] std::vector<std::string> given_of(std::string_view table) const;
 
- private:
-  struct Added {
-    const Setting* setting;
-    const CLI::Option* option;
-  };
-  std::vector<Added> added_;
-};
-
-/// The arguments of a subcommand that has settings of a run, and --quiet.
-struct RunArguments {
-  explicit RunArguments(CLI::App& command) : run(command) {}
-
-  RunOptions run;
   bool quiet = false;
+
+ private:
+  std::vector<std::pair<const Setting*, const CLI::Option*>> added_;
 };
 
 /// Adds an option or argument with a value that the help calls `type`.

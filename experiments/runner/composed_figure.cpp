@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "experiments/studies/picture_files.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/image/false_color.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
@@ -67,9 +67,7 @@ void pad_to_one_height(std::vector<Image>& pictures) {
 }
 
 Image stacked_rows(const std::vector<Image>& rows) {
-  Image whole = rows.front();
-  for (std::size_t i = 1; i < rows.size(); ++i) whole = stacked(whole, rows[i]);
-  return whole;
+  return std::accumulate(rows.begin() + 1, rows.end(), rows.front(), stacked);
 }
 
 struct Composer {

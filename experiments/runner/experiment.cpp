@@ -2,7 +2,6 @@
 #include "experiments/runner/experiment.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>

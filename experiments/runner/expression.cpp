@@ -277,29 +277,15 @@ class Evaluator {
  private:
   // 0 if there is a problem, which is reported instead of the value.
   double value(const Expression& node) {
-    switch (node.kind) {
-      case Kind::number:
-        return node.number;
-      case Kind::call:
-        return call(node.measure);
-      case Kind::negate:
-        return -value(node.parts[0]);
-      case Kind::absolute:
-        return std::abs(value(node.parts[0]));
-      case Kind::binary:
-        break;
-    }
-    const double left = value(node.parts[0]), right = value(node.parts[1]);
-    switch (node.operation) {
-      case '+':
-        return left + right;
-      case '-':
-        return left - right;
-      case '*':
-        return left * right;
-      default:
-        break;
-    }
+    if (node.kind == Kind::number) return node.number;
+    if (node.kind == Kind::call) return call(node.measure);
+    const double left = value(node.parts[0]);
+    if (node.kind == Kind::negate) return -left;
+    if (node.kind == Kind::absolute) return std::abs(left);
+    const double right = value(node.parts[1]);
+    if (node.operation == '+') return left + right;
+    if (node.operation == '-') return left - right;
+    if (node.operation == '*') return left * right;
     if (right == 0) return trouble(node.text() + ": division by 0");
     return left / right;
   }
@@ -346,18 +332,10 @@ std::string Expression::text() const {
   const auto operand = [](const Expression& part) {
     return part.kind == Kind::binary ? fmt::format("({})", part.text()) : part.text();
   };
-  switch (kind) {
-    case Kind::number:
-      return fmt::format("{}", number);
-    case Kind::call:
-      return measure_text(measure);
-    case Kind::negate:
-      return fmt::format("-{}", operand(parts[0]));
-    case Kind::absolute:
-      return fmt::format("abs({})", parts[0].text());
-    case Kind::binary:
-      break;
-  }
+  if (kind == Kind::number) return fmt::format("{}", number);
+  if (kind == Kind::call) return measure_text(measure);
+  if (kind == Kind::negate) return fmt::format("-{}", operand(parts[0]));
+  if (kind == Kind::absolute) return fmt::format("abs({})", parts[0].text());
   return fmt::format("{} {} {}", operand(parts[0]), operation, operand(parts[1]));
 }
 

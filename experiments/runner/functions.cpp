@@ -1,15 +1,11 @@
 // The table of functions: for each the selectors that it takes, what the experiment must have, and its figure of a run.
-#include "experiments/runner/expression.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <ranges>
-#include <utility>
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/settings/setting.hpp"

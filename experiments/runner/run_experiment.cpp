@@ -264,7 +264,6 @@ FurtherFigures further_figures(const Experiment& experiment, const std::filesyst
   return figures;
 }
 
-// The pictures of all footprints, each once.
 std::vector<std::string> ndf_pictures(const Results& results) {
   std::vector<std::string> pictures;
   for (const FootprintNdf& figures : results.ndf) {
@@ -378,20 +377,20 @@ std::vector<WorkUnit> work_units(const Experiment& experiment) {
   const std::size_t count = distances_of(experiment).size();
   std::vector<WorkUnit> units;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i == 0 || experiment.run.view.zoom.frames == 0) units.emplace_back();
+    if (i == 0 || experiment.run.view.zoom.frames == 0) units.push_back({&experiment});
     units.back().distances.push_back(i);
   }
-  if (has_further_figures(experiment)) units.emplace_back();
+  if (has_further_figures(experiment)) units.push_back({&experiment});
   return units;
 }
 
-void measure_unit(const Experiment& experiment, const WorkUnit& unit, const std::filesystem::path& folder,
-                  const Progress& progress, const CompareContext& context) {
+void measure_unit(const WorkUnit& unit, const std::filesystem::path& folder, const Progress& progress,
+                  const CompareContext& context) {
   if (!unit.distances.empty()) {
-    measure_views(experiment.run, unit.distances, folder, progress, context);
+    measure_views(unit.experiment->run, unit.distances, folder, progress, context);
     return;
   }
-  (void)further_figures(experiment, folder, progress, context.finished);
+  (void)further_figures(*unit.experiment, folder, progress, context.finished);
 }
 
 }  // namespace footprint

@@ -53,7 +53,8 @@ void make_quick(Experiment& experiment);
 
 /// A part of an experiment that one process can measure alone.
 struct WorkUnit {
-  std::vector<std::size_t> distances;  ///< by index: one, or all of a zoom; empty: the NDFs and quantities
+  const Experiment* experiment;
+  std::vector<std::size_t> distances = {};  ///< by index: one, or all of a zoom; empty: the NDFs and quantities
 };
 
 /// All parts of an experiment, in order. Errors (usage): of its scene.
@@ -62,8 +63,8 @@ struct WorkUnit {
 /// Measures a part and stores it in `context.finished`.
 /// folder: for images until they are stored.
 /// Errors: those of run_experiment.
-void measure_unit(const Experiment& experiment, const WorkUnit& unit, const std::filesystem::path& folder,
-                  const Progress& progress, const CompareContext& context);
+void measure_unit(const WorkUnit& unit, const std::filesystem::path& folder, const Progress& progress,
+                  const CompareContext& context);
 
 /// Reads the run's pictures back from `folder` and writes FOLDER/images/figure.png and, where a method is shown,
 /// figure_errors.png (the same pictures' errors in false colour over the scale's legend). Returns their paths from the

@@ -53,12 +53,6 @@ Number parse_whole_number(Number low, Number high, std::string_view option, std:
   throw not_valid(option, text, "is not valid", fmt::format("give a whole number, {}", range_text(low, high)));
 }
 
-inline std::vector<int> parse_whole_numbers(int low, int high, std::string_view option, const std::string& text) {
-  std::vector<int> numbers;
-  for (const std::string& part : parts_of(text)) numbers.push_back(parse_whole_number(low, high, option, part));
-  return numbers;
-}
-
 inline double parse_positive(double low, double high, std::string_view option, std::string_view text) {
   const std::string hint = fmt::format("give a number from {} to {}", low, high);
   const auto number = parse_whole_of<double>(text);
@@ -67,18 +61,6 @@ inline double parse_positive(double low, double high, std::string_view option, s
   if (*number < low || *number > high)
     throw not_valid(option, text, fmt::format("is not within {} to {}", low, high), hint);
   return *number;
-}
-
-inline double parse_angle(double most, std::string_view option, std::string_view text) {
-  const auto number = parse_whole_of<double>(text);
-  if (number && std::abs(*number) <= most && *number != 0.0) return *number;
-  throw not_valid(option, text, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
-}
-
-inline double parse_seconds(std::string_view option, std::string_view text) {
-  const auto number = parse_whole_of<double>(text);
-  if (number && std::abs(*number) <= largest_seconds) return *number;
-  throw not_valid(option, text, "is not a time", fmt::format("give seconds from -{0} to {0}", largest_seconds));
 }
 
 inline glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
@@ -150,23 +132,6 @@ inline std::string parse_name(const char* hint, std::string_view option, const s
   return text;
 }
 
-inline FootprintFilter parse_filter(std::string_view option, const std::string& text) {
-  return parse_footprint_filter(text, option);
-}
-
-inline std::vector<std::string> parse_gpus(std::string_view option, const std::string& text) {
-  std::vector<std::string> names;
-  for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
-  return names;
-}
-
-inline EffectSet parse_effects(std::string_view option, const std::string& text) {
-  const std::vector<std::string> names = effect_names(EffectSet{}.set());
-  EffectSet effects;
-  for (const std::string& word : parts_of(text)) effects.set(find_word(names, word, "effect", option));
-  return effects;
-}
-
 // A value as a text: none of a value that is missing.
 template <class Value>
 std::string written(const Value& value) {
@@ -226,8 +191,12 @@ template <class Field>
 /// A list of whole numbers, each within the range.
 [[nodiscard]] SettingType whole_numbers(auto field, int low, int high) {
   const auto write = [](const auto& all) { return all.empty() ? "" : fmt::format("[{}]", fmt::join(all, ", ")); };
-  return listed(typed(field, "LIST", "", std::bind_front(parse_whole_numbers, low, high), write),
-                fmt::format("a list, each {} to {}", low, high));
+  const auto parse = [=](std::string_view option, const std::string& text) {
+    std::vector<int> numbers;
+    for (const std::string& part : parts_of(text)) numbers.push_back(parse_whole_number(low, high, option, part));
+    return numbers;
+  };
+  return listed(typed(field, "LIST", "", parse, write), fmt::format("a list, each {} to {}", low, high));
 }
 
 /// A number above 0.
@@ -237,12 +206,22 @@ template <class Field>
 
 /// An angle in degrees, in either direction, not 0.
 [[nodiscard]] SettingType angle(auto field, double most) {
-  return typed(field, "DEGREES", fmt::format("-{0} to {0}", most), std::bind_front(parse_angle, most));
+  const auto parse = [=](std::string_view option, std::string_view text) {
+    const auto number = parse_whole_of<double>(text);
+    if (number && std::abs(*number) <= most && *number != 0.0) return *number;
+    throw not_valid(option, text, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
+  };
+  return typed(field, "DEGREES", fmt::format("-{0} to {0}", most), parse);
 }
 
 /// A moment in seconds, of either sign.
 [[nodiscard]] SettingType seconds(auto field) {
-  return typed(field, "SECONDS", fmt::format("-{0} to {0}", largest_seconds), parse_seconds);
+  const auto parse = [](std::string_view option, std::string_view text) {
+    const auto number = parse_whole_of<double>(text);
+    if (number && std::abs(*number) <= largest_seconds) return *number;
+    throw not_valid(option, text, "is not a time", fmt::format("give seconds from -{0} to {0}", largest_seconds));
+  };
+  return typed(field, "SECONDS", fmt::format("-{0} to {0}", largest_seconds), parse);
 }
 
 /// A direction in world space, of any length except 0; stored as a unit vector.
@@ -307,7 +286,9 @@ template <class Field>
 /// A footprint filter.
 [[nodiscard]] SettingType footprint_filter(auto field) {
   const auto write = [](const auto& filter) { return filter ? footprint_filter_text(*filter) : ""; };
-  return typed(field, "FILTER", footprint_filter_choices(), parse_filter, write);
+  return typed(
+      field, "FILTER", footprint_filter_choices(),
+      [](std::string_view option, const std::string& text) { return parse_footprint_filter(text, option); }, write);
 }
 
 /// Methods; in a file also "all".
@@ -338,15 +319,25 @@ template <class Field>
 
 /// A set of effects, by name.
 [[nodiscard]] SettingType effects(auto field) {
+  const auto parse = [](std::string_view option, const std::string& text) {
+    const std::vector<std::string> names = effect_names(EffectSet{}.set());
+    EffectSet effects;
+    for (const std::string& word : parts_of(text)) effects.set(find_word(names, word, "effect", option));
+    return effects;
+  };
   const auto write = [](const EffectSet& effects) { return joined(effect_names(effects)); };
-  return listed(typed(field, "LIST", "as cast_shadow,fresnel", parse_effects, write), R"(a list as ["cast_shadow"])");
+  return listed(typed(field, "LIST", "as cast_shadow,fresnel", parse, write), R"(a list as ["cast_shadow"])");
 }
 
 /// GPUs whose cost is estimated, by name.
 [[nodiscard]] SettingType gpus(auto field) {
   const std::string takes = fmt::format("{}, all", fmt::join(chip_names(), ", "));
-  return listed(typed(field, "NAME,...", takes, parse_gpus, joined),
-                R"(a list as ["Steam Deck", "RX 6800"], or ["all"])");
+  const auto parse = [](std::string_view option, const std::string& text) {
+    std::vector<std::string> names;
+    for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
+    return names;
+  };
+  return listed(typed(field, "NAME,...", takes, parse, joined), R"(a list as ["Steam Deck", "RX 6800"], or ["all"])");
 }
 
 /// A flag that unsets a folder.

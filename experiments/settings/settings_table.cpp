@@ -1,7 +1,4 @@
 // The table of a run's settings: a new one is a field of RunSettings and a row here (adding-an-option.md).
-#include <limits>
-
-#include "experiments/settings/setting.hpp"
 #include "experiments/settings/setting_types.hpp"
 
 namespace footprint {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "experiments/settings/setting.hpp"
-#include "experiments/studies/method_record.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
@@ -48,8 +47,6 @@ struct Workbench {
   std::optional<GpuCosts> gpu_costs{};
 };
 
-Scene scene_of(const RunSettings& settings) { return scene_for_path(settings, scene_of_run(settings)); }
-
 // A run's inputs, and its workbench once something is rendered.
 struct Job {
   Job(const RunSettings& of, std::filesystem::path into, const Progress& all, const CompareContext& with)
@@ -58,7 +55,7 @@ struct Job {
         context(with),
         whole(all, 4),
         staging(whole.next(1, "")),
-        scene(context.shared != nullptr ? Scene{} : scene_of(settings)),
+        scene(context.shared != nullptr ? Scene{} : scene_for_path(settings, scene_of_run(settings))),
         views(run_views(settings, loaded())),
         progress(whole.next(3, ""), static_cast<double>(views.size()) *
                                         (ReferenceRenderer::weight(settings) + weight_of_methods(settings))) {
@@ -155,7 +152,6 @@ std::vector<std::string> files_of(const RunSettings& settings, const DistanceRes
   return files;
 }
 
-// The indices of the pixels that a mask contains.
 std::vector<std::uint32_t> set_pixels(const Image& mask) {
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < mask.texels.size(); ++i) {
@@ -188,7 +184,6 @@ Image finest_level(Job& job, const ReferenceView& target, const StagedMethod& st
   return as_converged(finest, target.first, target.reference.mean);
 }
 
-// Renders a method, measures it, and writes its image.
 Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& staged, std::size_t index,
                      float exposure, Record& record) {
   Workbench& bench = job.workbench();
@@ -323,7 +318,6 @@ Exposure exposure_of(Job& job) {
   return choose_exposure({}, job.loaded(), job.workbench().references.first_samples(job.views.front()));
 }
 
-// Measures the views in turn, or reads them back.
 class Views {
  public:
   explicit Views(Job& job) : job_(job) {}

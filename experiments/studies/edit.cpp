@@ -8,17 +8,14 @@
 #include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <memory>
 #include <utility>
 
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/gl/functions.hpp"
 #include "renderer/lobes/lobe.hpp"
-#include "renderer/pipeline/frame.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
@@ -301,17 +298,6 @@ void require(bool has, const Material& material, const std::string& parameter, c
               "set a parameter that its base BRDF has (docs/explanation/base-brdf.md)");
 }
 
-bool takes(NormalDistribution distribution, const std::string& parameter) {
-  switch (distribution) {
-    case NormalDistribution::blinn_phong:
-      return parameter == "exponent";
-    case NormalDistribution::vmf:
-      return parameter == "kappa";
-    default:
-      return parameter == "alpha";
-  }
-}
-
 void set_width(const std::string& parameter, float value, Material& material) {
   require(material.lobes.empty(), material, parameter, "has lobes of its own");
   require(width_map(material) == nullptr && !material.lobe_parameter_map, material, parameter,
@@ -321,7 +307,11 @@ void set_width(const std::string& parameter, float value, Material& material) {
     material.lobe_parameter.reset();
     return;
   }
-  require(takes(material.brdf.distribution, parameter), material, parameter, "has another distribution");
+  const NormalDistribution own = material.brdf.distribution;
+  const std::string_view its_parameter = own == NormalDistribution::blinn_phong ? "exponent"
+                                         : own == NormalDistribution::vmf       ? "kappa"
+                                                                                : "alpha";
+  require(parameter == its_parameter, material, parameter, "has another distribution");
   material.lobe_parameter = value;
 }
 

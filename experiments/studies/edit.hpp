@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
-#include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/microgeometry/patch.hpp"

@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "experiments/studies/method_record.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/supersample.hpp"
 

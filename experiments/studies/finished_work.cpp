@@ -4,18 +4,15 @@
 #include "experiments/studies/finished_work.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 #include <system_error>
 #include <utility>
 
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/bytes.hpp"
-#include "renderer/core/disk_cache.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/figures.hpp"
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
-#include <map>
 #include <memory>
 #include <set>
 

@@ -1,6 +1,6 @@
 // Errors and flicker by cause, what a method prepared, what a pixel of it costs, and a picture of verdicts for each two
 // methods.
-#include "experiments/studies/method_record.hpp"
+#include "experiments/studies/reference_view.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include "experiments/studies/score.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/image/metrics.hpp"
-#include "renderer/pipeline/supersample.hpp"
 #include "results/report/figures.hpp"
 
 namespace footprint {
@@ -79,19 +77,10 @@ Image without(Image mask, const Image& left_out) {
   return mask;
 }
 
-std::string write_verdicts(const std::filesystem::path& folder, const std::string& stem, const Image& verdicts,
-                           const Image& object) {
-  std::string file = fmt::format("images/{}.png", stem);
-  write_png(folder / file, verdict_picture(verdicts, object));
-  return file;
-}
-
 std::vector<std::array<double, 2>> shares_by_material(const Image& verdicts, const ReferenceView& target) {
   std::vector<std::array<double, 2>> shares;
-  for (const Image& mask : target.materials) {
-    const CloserShares own = closer_shares(verdicts, mask).value_or(CloserShares{});
-    shares.push_back({own.a, own.b});
-  }
+  for (const Image& mask : target.materials)
+    shares.push_back(closer_shares(verdicts, mask).value_or(std::array<double, 2>{}));
   return shares;
 }
 
@@ -209,12 +198,14 @@ std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::
           closer_beyond_noise(images[i], images[j], target.reference.mean, target.reference.standard_error, exposure);
       const auto shares = closer_shares(verdicts, target.parts.interior);
       if (!shares) continue;
-      const std::string stem = fmt::format("{}_or_{}", distance_stem(target.at.distance, names[i]), names[j]);
+      const std::string file =
+          fmt::format("images/{}_or_{}.png", distance_stem(target.at.distance, names[i]), names[j]);
+      write_png(folder / file, verdict_picture(verdicts, object));
       pairs.push_back({.distance = target.at.distance,
                        .methods = {records[i].method, records[j].method},
-                       .closer = {shares->a, shares->b},
+                       .closer = *shares,
                        .materials = shares_by_material(verdicts, target),
-                       .picture = write_verdicts(folder, stem, verdicts, object)});
+                       .picture = file});
     }
   }
   return pairs;

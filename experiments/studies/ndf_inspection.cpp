@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
-#include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
@@ -203,12 +201,6 @@ NdfResults described(const NdfSource& source, const NdfSettings& settings, const
   return results;
 }
 
-// The requested methods, or all of them.
-std::vector<MethodSpec> methods_of(const NdfSettings& settings) {
-  if (!settings.run.methods.empty()) return settings.run.methods;
-  return every_method();
-}
-
 // The share of the normal map's texels that a method bakes if a part is enough.
 double share_baked(const Material& material, const std::optional<FootprintPart>& part) {
   if (!part) return 1.0;
@@ -319,7 +311,7 @@ NdfSource load_ndf_source(const NormalFile& map, const std::string& material, co
 NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const std::filesystem::path& folder,
                        const Progress& progress) {
   check_footprint(settings.footprint, "--region");
-  const std::vector<MethodSpec> methods = methods_of(settings);
+  const std::vector<MethodSpec> methods = settings.run.methods.empty() ? every_method() : settings.run.methods;
   const FootprintTexels texels = texels_under(source.material, settings.footprint);
   NdfResults results = described(source, settings, texels);
   NdfEvaluator evaluator(settings, source.material);

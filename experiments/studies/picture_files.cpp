@@ -13,11 +13,8 @@
 #include "experiments/studies/score.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/image/false_color.hpp"
-#include "renderer/image/flip.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/image/metrics.hpp"
 #include "renderer/image/pixel_script.hpp"
-#include "renderer/pipeline/supersample.hpp"
 #include "renderer/pipeline/timing.hpp"
 
 namespace footprint {

@@ -16,7 +16,6 @@
 #include "renderer/bake/map_statistics.hpp"
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/record_fields.hpp"

@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <ranges>
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
-#include "experiments/studies/stage.hpp"
-#include "methods/registry.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/figures.hpp"

@@ -85,13 +85,10 @@ constexpr int samples_factor = 4;
 // The sum over a tile's object pixels of half the error between the halves, over their number.
 double noise_of(const Image& error, const Image& counted, const Tile& tile) {
   double sum = 0, count = 0;
-  for (int y = 0; y < tile.size.y; ++y) {
-    const int row = error.height - 1 - (tile.origin.y + y);
-    for (int x = tile.origin.x; x < tile.origin.x + tile.size.x; ++x) {
-      sum += error.at(x, row)[0] / 2.0;
-      count += counted.at(x, row)[3] >= 1.0F ? 1.0 : 0.0;
-    }
-  }
+  visit_pixels(tile, error.height, [&](int x, int y) {
+    sum += error.at(x, y)[0] / 2.0;
+    count += counted.at(x, y)[3] >= 1.0F ? 1.0 : 0.0;
+  });
   return count > 0.0 ? sum / count : 0.0;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -292,7 +291,7 @@ Image closer_beyond_noise(const Image& a, const Image& b, const Image& mean, con
   return verdicts;
 }
 
-std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& mask) {
+std::optional<std::array<double, 2>> closer_shares(const Image& verdicts, const Image& mask) {
   std::size_t pixels = 0, a = 0, b = 0;
   for (std::size_t i = 0; i < mask.texel_count(); ++i) {
     if (mask.texels[i] <= 0.0F) continue;
@@ -302,7 +301,7 @@ std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& ma
   }
   if (pixels == 0) return std::nullopt;
   const auto all = static_cast<double>(pixels);
-  return CloserShares{.a = static_cast<double>(a) / all, .b = static_cast<double>(b) / all};
+  return std::array{static_cast<double>(a) / all, static_cast<double>(b) / all};
 }
 
 PairScore score_pair(const ScoredPicture& a, const ScoredPicture& b, const Image& reference,

@@ -2,6 +2,7 @@
 // at each pixel.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -90,17 +91,12 @@ struct ScoreMetric {
 /// `object` (one channel, above 0).
 [[nodiscard]] Image verdict_picture(const Image& verdicts, const Image& object);
 
-/// Shares of the mask's pixels (one channel, above 0) in which each image is closer.
-struct CloserShares {
-  double a = 0, b = 0;
-};
-
-/// None if the mask is empty.
-[[nodiscard]] std::optional<CloserShares> closer_shares(const Image& verdicts, const Image& mask);
+/// Shares of the mask's pixels (one channel, above 0) in which each image is closer; none if the mask is empty.
+[[nodiscard]] std::optional<std::array<double, 2>> closer_shares(const Image& verdicts, const Image& mask);
 
 /// Which of two images is closer, pixel by pixel.
 struct PairScore {
-  CloserShares shares;
+  std::array<double, 2> shares{};
   Image verdicts, object;
   bool beyond_noise = false;  ///< by three standard errors of the reference; otherwise any difference counts
 };

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/studies/method_record.hpp"
+#include "experiments/studies/reference_view.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 
@@ -43,7 +43,7 @@ Supersampled noisy(float value, bool same_in_all) {
   return reference;
 }
 
-CloserShares shares_of(const Image& a, const Image& b, const Supersampled& reference) {
+std::array<double, 2> shares_of(const Image& a, const Image& b, const Supersampled& reference) {
   return closer_shares(closer_beyond_noise(a, b, reference.mean, reference.standard_error, 1.0F),
                        Image(edge, edge, 1, 1.0F))
       .value();
@@ -51,39 +51,39 @@ CloserShares shares_of(const Image& a, const Image& b, const Supersampled& refer
 
 TEST(Significance, NoiseAloneDecidesAlmostNothing) {
   // Both are equally far from the reference, so that any decision is wrong. 0.27% lie beyond three standard errors.
-  const CloserShares together = shares_of(even(0.45F), even(0.55F), noisy(0.5F, true));
-  EXPECT_LT(together.a + together.b, 0.004);
-  EXPECT_GT(together.a + together.b, 0.0015);
-  const CloserShares apart = shares_of(even(0.45F), even(0.55F), noisy(0.5F, false));
-  EXPECT_LT(apart.a + apart.b, 1e-4);  // channels that err on their own cancel: the test errs on the safe side
+  const std::array<double, 2> together = shares_of(even(0.45F), even(0.55F), noisy(0.5F, true));
+  EXPECT_LT(together[0] + together[1], 0.004);
+  EXPECT_GT(together[0] + together[1], 0.0015);
+  const std::array<double, 2> apart = shares_of(even(0.45F), even(0.55F), noisy(0.5F, false));
+  EXPECT_LT(apart[0] + apart[1], 1e-4);  // channels that err on their own cancel: the test errs on the safe side
 }
 
 TEST(Significance, WhatIsFarBeyondNoiseIsDecided) {
   // The middle of both is 6 standard errors off the reference: of three more than 99% are sure.
-  const CloserShares shares = shares_of(even(0.45F), even(0.79F), noisy(0.5F, true));
-  EXPECT_GT(shares.a, 0.99);
-  EXPECT_EQ(shares.b, 0.0);
-  const CloserShares turned = shares_of(even(0.79F), even(0.45F), noisy(0.5F, true));
-  EXPECT_EQ(turned.a, 0.0);
-  EXPECT_EQ(turned.b, shares.a);
+  const std::array<double, 2> shares = shares_of(even(0.45F), even(0.79F), noisy(0.5F, true));
+  EXPECT_GT(shares[0], 0.99);
+  EXPECT_EQ(shares[1], 0.0);
+  const std::array<double, 2> turned = shares_of(even(0.79F), even(0.45F), noisy(0.5F, true));
+  EXPECT_EQ(turned[0], 0.0);
+  EXPECT_EQ(turned[1], shares[0]);
 }
 
 TEST(Significance, EqualAndClippedPicturesDoNotDiffer) {
   const Supersampled reference = noisy(0.5F, true);
-  const CloserShares equal = shares_of(even(0.4F), even(0.4F), reference);
-  EXPECT_EQ(equal.a + equal.b, 0.0);
-  const CloserShares clipped = shares_of(even(1.5F), even(4.0F), reference);
-  EXPECT_EQ(clipped.a + clipped.b, 0.0);
+  const std::array<double, 2> equal = shares_of(even(0.4F), even(0.4F), reference);
+  EXPECT_EQ(equal[0] + equal[1], 0.0);
+  const std::array<double, 2> clipped = shares_of(even(1.5F), even(4.0F), reference);
+  EXPECT_EQ(clipped[0] + clipped[1], 0.0);
 }
 
 TEST(Significance, RoundingIsNoDifference) {
   Supersampled exact = noisy(0.5F, true);
   exact.mean = even(0.5F);
   exact.standard_error = Image(edge, edge, 3);
-  const CloserShares rounded = shares_of(even(0.5F), even(0.500005F), exact);
-  EXPECT_EQ(rounded.a + rounded.b, 0.0);
-  const CloserShares different = shares_of(even(0.5F), even(0.5001F), exact);
-  EXPECT_EQ(different.a, 1.0);
+  const std::array<double, 2> rounded = shares_of(even(0.5F), even(0.500005F), exact);
+  EXPECT_EQ(rounded[0] + rounded[1], 0.0);
+  const std::array<double, 2> different = shares_of(even(0.5F), even(0.5001F), exact);
+  EXPECT_EQ(different[0], 1.0);
 }
 
 TEST(Significance, OnlyWholePixelsAndThoseOfTheMaskCount) {
@@ -95,7 +95,7 @@ TEST(Significance, OnlyWholePixelsAndThoseOfTheMaskCount) {
   Image mask(edge, edge, 1);
   EXPECT_FALSE(closer_shares(verdicts, mask).has_value());
   mask.at(10, 4)[0] = mask.at(10, 3)[0] = 1.0F;
-  EXPECT_EQ(closer_shares(verdicts, mask)->a, 0.5);
+  EXPECT_EQ(closer_shares(verdicts, mask)->at(0), 0.5);
 }
 
 TEST(Significance, IsNotSaidWhereTheNoiseIsNotKnown) {

@@ -112,38 +112,24 @@ glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const RunView& 
          glm::translate(glm::dmat4(1.0), -centre);
 }
 
-glm::vec3 turned_point(const glm::dmat4& turn, const glm::vec3& point) {
-  return glm::vec3(turn * glm::dvec4(glm::dvec3(point), 1.0));
+// A light turned: its positions and its directions.
+Light turned(Light light, const glm::dmat4& turn) {
+  const auto point = [&](const glm::vec3& at) { return glm::vec3(turn * glm::dvec4(glm::dvec3(at), 1.0)); };
+  const auto direction = [&](const glm::vec3& to) {
+    return glm::normalize(glm::vec3(glm::dmat3(turn) * glm::dvec3(to)));
+  };
+  const auto turn_members = [&](auto& own) {
+    if constexpr (requires { own.point; }) own.point.position = point(own.point.position);
+    if constexpr (requires { own.position; }) own.position = point(own.position);
+    if constexpr (requires { own.direction; }) own.direction = direction(own.direction);
+    if constexpr (requires { own.across; }) {
+      own.across = direction(own.across);
+      own.up = direction(own.up);
+    }
+  };
+  std::visit(turn_members, light);
+  return light;
 }
-
-glm::vec3 turned_direction(const glm::dmat4& turn, const glm::vec3& direction) {
-  return glm::normalize(glm::vec3(glm::dmat3(turn) * glm::dvec3(direction)));
-}
-
-struct Turned {
-  const glm::dmat4& turn;
-
-  Light operator()(PointLight light) const {
-    light.position = turned_point(turn, light.position);
-    return light;
-  }
-  Light operator()(SpotLight light) const {
-    light.point.position = turned_point(turn, light.point.position);
-    light.direction = turned_direction(turn, light.direction);
-    return light;
-  }
-  Light operator()(DirectionalLight light) const {
-    light.direction = turned_direction(turn, light.direction);
-    return light;
-  }
-  Light operator()(AreaLight light) const {
-    light.position = turned_point(turn, light.position);
-    light.direction = turned_direction(turn, light.direction);
-    light.across = turned_direction(turn, light.across);
-    light.up = turned_direction(turn, light.up);
-    return light;
-  }
-};
 
 bool casts_shadows(const Scene& scene) {
   return std::ranges::any_of(derive_effects(scene), [](const EffectDecision& decision) {
@@ -488,9 +474,9 @@ std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, 
                                   const RunView& view) {
   if (path.kind != AnimationPath::light || view.degrees == 0.0) return lights;
   const glm::dmat4 turn = turn_of(path, scene, view);
-  std::vector<Light> turned;
-  for (const Light& light : lights) turned.push_back(std::visit(Turned{turn}, light));
-  return turned;
+  std::vector<Light> moved;
+  for (const Light& light : lights) moved.push_back(turned(light, turn));
+  return moved;
 }
 
 Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<Bounds>& bounds) {

@@ -4,17 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
-#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -135,7 +132,6 @@ constexpr std::array<const char*, 25> csv_columns{
     "issue_clocks",  "texture_reads", "bytes_fetched", "bytes_from_memory", "loop_rounds",
     "instructions",  "registers",     "waves",         "shader_bytes",      "failure"};
 
-// One line per method and GPU, RFC 4180.
 std::string cost_csv(const CostReport& report) {
   std::string csv = fmt::format("{}{}", fmt::join(csv_columns, ","), csv_line_end);
   for (const MethodCosts& method : report.methods) {
@@ -182,7 +178,6 @@ std::vector<Table> gpu_tables(const std::vector<MethodCosts>& methods, const std
   return tables;
 }
 
-// The tables of the distances of a run.
 std::vector<Table> gpu_tables(const Results& results) {
   std::vector<Table> tables;
   for (const double distance : distances_of(results)) {

@@ -12,7 +12,6 @@
 
 #include "renderer/core/memory.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -99,7 +98,7 @@ constexpr std::array<Column, 75> all_columns{
      {"options", "/options", "text, `name=value;name=value`"},
      {"history_frames", "/history/frames", "frames before the image"},
      {"distance", "/distance", "factor on the scene's own distance", "Distance",
-      "Camera distance, as a multiple of the scene’s own.", "", cell::number},
+      "Camera distance, as a multiple of the scene’s own.", cell::number},
      {"degrees", "/degrees", "angle since the first frame"},
      {"seconds", "/seconds", "time of the animation, s"},
      {"frame", "/frame", "number from 0"},
@@ -107,7 +106,7 @@ constexpr std::array<Column, 75> all_columns{
      {"height_px", "/size/1", "pixels"},
      {"normalized_color_error", "/error/normalized_color", error_unit, "Error",
       "Normalised colour error against the reference, 0 to 1: mean over the object’s pixels. Lower is better.",
-      "mean over the object's pixels.", cell::error},
+      cell::error},
      {"relative_rmse", "/error/relative_rmse", "none"},
      {"relmse", "/error/relmse", "none"},
      {"psnr_db", "/error/psnr", "dB"},
@@ -115,41 +114,34 @@ constexpr std::array<Column, 75> all_columns{
      {"luminance_distance", "/error/luminance_distance", "luminance as shown, 0 to 1"},
      {"noise_floor", "/error/noise_floor", error_unit},
      {"representation_error", "/error/representation", error_unit, "Lobe fit",
-      "Error of the method’s finest level, supersampled. It remains without any filtering.",
-      "error of the method's finest level, supersampled. It remains without any filtering.", cell::error},
+      "Error of the method’s finest level, supersampled. It remains without any filtering.", cell::error},
      {"filtering_error", "/error/filtering", error_unit},
      {"shading_error", "/error/shading", part_unit, "Shading",
       "Mean error over interior pixels, in which the reference sees one smooth piece of surface. Methods are ranked by "
       "it.",
-      "mean over interior pixels, in which the reference sees one smooth piece of surface; `Pixels` counts them.",
       cell::error},
      {"shading_floor", "/error/shading_floor", part_unit},
      {"shading_noise", "/error/shading_noise", part_unit},
      {"edges_error", "/error/edges", part_unit, "Edges",
-      "Mean error over the object’s other pixels, which no method filters.",
-      "mean over the object's other pixels, which no method filters.", cell::error},
+      "Mean error over the object’s other pixels, which no method filters.", cell::error},
      {"filter_error", "/error/filter", part_unit, "Filter",
-      "Error of the exact normal distribution under the same footprint filter.",
-      "shading error of the exact normal distribution under the same footprint filter.", cell::error},
+      "Error of the exact normal distribution under the same footprint filter.", cell::error},
      {"method_error", "/error/method", part_unit, "Own error",
-      "Difference between the method’s image and that of the exact normal distribution.",
-      "difference between the method's image and that.", cell::error},
+      "Difference between the method’s image and that of the exact normal distribution.", cell::error},
      {"light_error", "/error/light", part_unit, "Light",
-      "Error of the environment lookup, compared with the whole environment.",
-      "error of its environment lookup, compared with the whole environment.", cell::error},
+      "Error of the environment lookup, compared with the whole environment.", cell::error},
      {"object_pixels", "/pixels/object", "pixels"},
      {"unresolved_pixels", "/pixels/unresolved", "pixels"},
      {"interior_pixels", "/pixels/interior", "pixels", "Pixels", "Number of interior pixels; ! marks fewer than 100.",
-      "", cell::pixels},
+      cell::pixels},
      {"minified_pixels", "/pixels/minified", "pixels"},
      {"bound_pixels", "/pixels/bound", "pixels"},
      {"light_pixels", "/pixels/light", "pixels"},
      {"equivalent_spp", "/equivalent_spp", "frames of `direct`", "=\u00a0spp",
-      "Samples per pixel of plain supersampling with the same shading error.",
-      "samples per pixel of plain supersampling with the same shading error.", cell::samples},
+      "Samples per pixel of plain supersampling with the same shading error.", cell::samples},
      {"equivalent_bound", "/equivalent_bound", "`<1`, `>64` or `n/a` where there is no figure"},
      {"flicker", "/flicker/mean", "normalised colour, 0 to 2", "Flicker",
-      "How much the change since the previous frame differs from the reference’s, 0 to 2.", "", cell::significant},
+      "How much the change since the previous frame differs from the reference’s, 0 to 2.", cell::significant},
      {"flicker_p99", "/flicker/p99", "normalised colour, 0 to 2"},
      {"flicker_noise_floor", "/flicker/noise_floor", "normalised colour, 0 to 2"},
      {"ghosting", "/flicker/ghosting", part_unit},
@@ -165,32 +157,30 @@ constexpr std::array<Column, 75> all_columns{
      {"reference_highlight_energy", "/reference_highlight_energy", "exposed luminance"},
      {"node", "/time/node", "name of the machine that the times were taken on"},
      {"frame_median_ms", "/time/frame_ms/median", "milliseconds", "Frame ms",
-      "Time per frame: median (minimum–90th percentile of the repeats).", "median (minimum-90th percentile).",
-      cell::frame},
+      "Time per frame: median (minimum–90th percentile of the repeats).", cell::frame},
      {"frame_min_ms", "/time/frame_ms/min", "milliseconds"},
      {"frame_p90_ms", "/time/frame_ms/p90", "milliseconds"},
      {"frame_build_ms", "/time/frame_build_ms", "milliseconds", "Build ms",
-      "Time to rebuild maps when something moves, and whether frame times include it.", "", cell::build},
+      "Time to rebuild maps when something moves, and whether frame times include it.", cell::build},
      {"frame_build", "/time/frame_build", "`every frame`, or `reused`: the frame times have no build in them"},
-     {"frames_per_second", "/time/fps", "1/s", "fps", "Frames per second at the median frame time.", "", cell::figure},
+     {"frames_per_second", "/time/fps", "1/s", "fps", "Frames per second at the median frame time.", cell::figure},
      {"fetches", "/time/fetches", "texture lookups per pixel", "Fetches",
-      "Texture lookups per pixel, counted; – for methods whose frames take seconds.", "", cell::counted},
+      "Texture lookups per pixel, counted; – for methods whose frames take seconds.", cell::counted},
      {"lobes", "/time/lobes", "lobes evaluated per pixel", "Lobes",
-      "Lobes evaluated per pixel over all lights, counted; – for methods whose frames take seconds.", "",
-      cell::counted},
+      "Lobes evaluated per pixel over all lights, counted; – for methods whose frames take seconds.", cell::counted},
      {"ratio_to_direct_median", "/time/ratio_to_direct/median", "none", "× direct",
       "Frame time relative to direct under the same footprint filter: median (95% interval of the median).",
-      "frame time over that of `direct`: median (95% interval of the median).", cell::ratio},
+      cell::ratio},
      {"ratio_to_direct_low", "/time/ratio_to_direct/low", "none"},
      {"ratio_to_direct_high", "/time/ratio_to_direct/high", "none"},
-     {"precompute_s", "/precompute/seconds", "seconds", "Bake s", "Bake time in seconds.", "", cell::figure},
-     {"precompute_bytes", "/precompute/bytes", "bytes", "Maps", "Memory of the baked maps.", "", cell::bytes},
+     {"precompute_s", "/precompute/seconds", "seconds", "Bake s", "Bake time in seconds.", cell::figure},
+     {"precompute_bytes", "/precompute/bytes", "bytes", "Maps", "Memory of the baked maps.", cell::bytes},
      {"precompute_bytes_per_texel", "/precompute/bytes_per_texel", "bytes per texel", "B/texel",
-      "Bytes per texel of the finest level.", "", cell::figure},
+      "Bytes per texel of the finest level.", cell::figure},
      {"precompute_cached", "/precompute/cached", "`true` or `false`"},
      {"effects_on", "/effects/on", "names with `;` between"},
      {"effects_left_out", "/effects/left_out", "names with `;` between", "Left out",
-      "Effects of the scene that the method cannot render.", "", cell::left_out, true},
+      "Effects of the scene that the method cannot render.", cell::left_out, true},
      {"image_color", "/images/color", "paths from the output folder"},
      {"image_reference", "/images/reference", "paths from the output folder"},
      {"image_error", "/images/error", "paths from the output folder"},
@@ -201,8 +191,7 @@ constexpr std::array<Column, 75> all_columns{
      {"failure", "/failure", "text; empty if the method did not fail"},
      {"rank", "", "", "Rank",
       "By shading error. Methods that differ by no more than the reference’s noise share a rank; – if too few pixels "
-      "are interior.",
-      "by the shading error; methods that differ by no more than the reference's noise share a rank (=)."}}};
+      "are interior."}}};
 
 std::string csv_text(const nlohmann::ordered_json& value) {
   if (value.is_null()) return {};
@@ -358,11 +347,12 @@ std::string cell_text(const Column& column, const Record& record, const nlohmann
 }
 
 std::string plain(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> replacements{
-      {{"–", "-"}, {"×", "x"}, {"\u00a0", " "}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> replacements{
+      {{"–", "-"}, {"×", "x"}, {"’", "'"}, {"\u00a0", " "}}};
   std::string replaced(text);
   for (const auto& [from, to] : replacements) {
-    if (const std::size_t at = replaced.find(from); at != std::string::npos) replaced.replace(at, from.size(), to);
+    for (std::size_t at = 0; (at = replaced.find(from, at)) != std::string::npos;)
+      replaced.replace(at, from.size(), to);
   }
   return replaced;
 }

@@ -97,8 +97,7 @@ struct Column {
   const char* place = "";      ///< JSON pointer into a record of results.json; empty: not in results.csv
   std::string_view unit;       ///< in results.md
   std::string_view title{};    ///< the heading in tables; empty: no table has the column
-  std::string_view meaning{};  ///< on the page
-  std::string_view note{};     ///< below table.md
+  std::string_view meaning{};  ///< on the page, and of some below table.md
   /// Writes the number at `place`, or several figures of the record; null: the tables write it themselves.
   std::string (*format)(const std::optional<double>& value, const Record& record) = nullptr;
   bool is_words = false;  ///< aligned left
@@ -114,7 +113,7 @@ struct Column {
 /// json: the record as results.json has it.
 [[nodiscard]] std::string cell_text(const Column& column, const Record& record, const nlohmann::ordered_json& json);
 
-/// `text` with characters that a terminal's font lacks replaced: "–", "×" and the no-break space.
+/// `text` with characters that a terminal's font lacks replaced: "–", "×", "’" and the no-break space.
 [[nodiscard]] std::string plain(std::string_view text);
 
 /// The columns of errors and of times, in the order of table.md and the page.

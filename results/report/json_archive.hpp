@@ -4,13 +4,10 @@
 // An enumeration gives its words by `words_of(value)`. A number that is not finite is null, like an absent value.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <ranges>
 #include <string>
 #include <string_view>
@@ -18,7 +15,6 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "renderer/core/members.hpp"
 #include "renderer/core/names.hpp"

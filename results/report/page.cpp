@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <stdexcept>
 
 #include "renderer/core/embedded_texts.hpp"
@@ -42,21 +41,10 @@ bool means_something(std::string_view text, std::size_t i) {
   const char next = i + 1 < text.size() ? text[i + 1] : ' ';
   const char previous = i > 0 ? text[i - 1] : ' ';
   const bool before_word = std::isalpha(static_cast<unsigned char>(next)) != 0;
-  switch (text[i]) {
-    case '\\':
-    case '`':
-    case '|':
-    case '[':
-      return true;
-    case '*':
-      return next != ' ' || previous != ' ';
-    case '<':
-      return before_word || next == '/' || next == '!' || next == '?';
-    case '&':
-      return before_word || next == '#';
-    default:
-      return false;
-  }
+  if (text[i] == '*') return next != ' ' || previous != ' ';
+  if (text[i] == '<') return before_word || next == '/' || next == '!' || next == '?';
+  if (text[i] == '&') return before_word || next == '#';
+  return std::string_view("\\`|[").find(text[i]) != std::string_view::npos;
 }
 
 }  // namespace

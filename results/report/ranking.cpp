@@ -5,11 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <string_view>
 
 #include "renderer/core/error.hpp"
 
@@ -90,7 +88,6 @@ std::string who_is_worse(const DistanceRecords& sorted, std::size_t best) {
   return fmt::format("Significantly worse: {}.", enumerated(names));
 }
 
-// The first two of the ranking, pixel by pixel.
 std::string where_it_is_closer(const Results& results, const DistanceRecords& sorted) {
   if (sorted.size() < 2) return {};
   const Record &first = sorted[0], &second = sorted[1];
@@ -160,7 +157,6 @@ std::string what_edges_add(const DistanceRecords& records) {
 
 bool has_nothing_to_filter(const PixelCounts& pixels) { return pixels.interior > 0 && pixels.minified == 0; }
 
-// Whether even the best and the worst differ by no more than noise.
 bool is_all_noise(const DistanceRecords& records) {
   const DistanceRecords sorted = ranked(records);
   return sorted.size() > 1 && !is_better(sorted.front(), sorted.back());

@@ -4,16 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "renderer/core/memory.hpp"
-#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -202,7 +198,6 @@ std::vector<Provenance> provenance_of(const Recommendation& r) {
           {"Version", "footprint " + r.tool.version}};
 }
 
-// The first sentence on each material.
 std::vector<std::string> answer_of(const Recommendation& recommendation) {
   std::vector<std::string> answer;
   for (const MaterialAdvice& advice : recommendation.materials) {

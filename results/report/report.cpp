@@ -5,15 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "renderer/core/files.hpp"
-#include "results/report/command_reports.hpp"
 #include "results/report/experiment_report.hpp"
-#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/record_fields.hpp"
 
@@ -103,7 +98,6 @@ bool is_best(const Record& record, const DistanceRecords& records) {
   return records.size() > 1 && is_first(record) && std::ranges::count_if(records, is_first) == 1;
 }
 
-/// The columns of the page's table, in order.
 std::vector<std::string_view> page_columns() {
   std::vector<std::string_view> keys{"distance"};
   keys.insert(keys.end(), error_columns.begin(), error_columns.end());
@@ -145,7 +139,6 @@ Json display(const Results& results, const Record& record, const Json& json) {
   return cells;
 }
 
-/// The answer and the findings at a distance, and the scale of its error images.
 Json distance_json(const Results& results, double distance) {
   const auto scale = std::ranges::find(results.error_scales, distance, &ErrorScale::distance);
   const double top = scale == results.error_scales.end() ? results.error_scale : scale->error;

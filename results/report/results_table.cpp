@@ -4,25 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
-#include <span>
 #include <sstream>
-#include <string_view>
-#include <vector>
 
 #include "renderer/core/memory.hpp"
-#include "results/report/command_reports.hpp"
 #include "results/report/experiment_report.hpp"
-#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/record_fields.hpp"
-#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -155,7 +144,6 @@ std::string preparation_section(const Results& results) {
   return markdown_section(table);
 }
 
-/// Flicker between the frames of a zoom.
 std::string flicker_section(const Results& results) {
   Table table{.heading = "Flicker",
               .columns = {{"Frame"}, {"Method", false}, {"Mean"}, {"99th percentile"}, {"Floor"}}};
@@ -168,7 +156,6 @@ std::string flicker_section(const Results& results) {
   return markdown_section(table);
 }
 
-/// Effective NDFs of the footprints that were looked into.
 std::string ndf_section(const Results& results) {
   Table table{.heading = "Effective NDFs",
               .columns = {{"Footprint", false}, {"Method", false}, {"Rel. L2"}, {"Energy"}, {"Peak"}, {"Lobes"}}};
@@ -179,7 +166,6 @@ std::string ndf_section(const Results& results) {
   return markdown_section(table);
 }
 
-/// Figures that no picture shows.
 std::string quantity_section(const Results& results) {
   Table table{.heading = "Other quantities",
               .columns = {{"Name", false}, {"Method", false}, {"Quantity", false}, {"Value"}}};
@@ -245,15 +231,15 @@ std::string warnings_section(const Results& results) {
 std::string notes() {
   std::string text;
   const auto add = [&text](std::string_view title, std::string_view note) {
-    text += fmt::format("- {}: {}\n", plain(title), note);
+    text += list_entry(fmt::format("{}: {}", plain(title), plain(note)));
   };
   for (const std::string_view key : {"normalized_color_error", "shading_error", "rank", "edges_error", "filter_error",
                                      "method_error", "light_error", "representation_error", "equivalent_spp"})
-    add(column_of(key).title, column_of(key).note);
-  add("% of pixels closer than", "interior pixels in which the row's method is closer to the reference, beyond noise.");
+    add(column_of(key).title, column_of(key).meaning);
+  add("% of pixels closer than", "Interior pixels in which the row's method is closer to the reference, beyond noise.");
   for (const std::string_view key : {"frame_median_ms", "ratio_to_direct_median"})
-    add(column_of(key).title, column_of(key).note);
-  add("Fetches, Lobes", "texture lookups and lobes per pixel, counted.");
+    add(column_of(key).title, column_of(key).meaning);
+  add("Fetches, Lobes", "Texture lookups and lobes per pixel, counted.");
   return text;
 }
 
@@ -266,7 +252,6 @@ std::string words_section(const Results& results) {
   return text + "\nErrors are normalised colour errors; lower is better.\n\n" + notes();
 }
 
-/// A column of means over an animation's frames.
 struct MeanColumn {
   const char *title, *place;  // its heading, and the figure as a JSON pointer into a record
   bool is_largest = false;    // not the mean

@@ -1,5 +1,5 @@
 // Runs the hard cases, writes the report, and fails if a check failed.
-#include "app/hard_cases.hpp"
+#include "app/commands.hpp"
 
 #include <fmt/format.h>
 

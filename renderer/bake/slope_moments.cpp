@@ -77,36 +77,43 @@ void note_steep_texels(const Image& normals, std::string_view map, double steepe
                     steep, normals.texel_count(), map, steepest));
 }
 
-constexpr int trace = 5, normal_x = 6;  // channels behind the moments
+// Bx, By and the trace of M.
+std::vector<Image> with_trace(const std::vector<Image>& chain) {
+  std::vector<Image> out = channels_of(chain, {slope_x, slope_y, slope_xx});
+  for (std::size_t level = 0; level < out.size(); ++level) {
+    for (std::size_t i = 0; i < out[level].texel_count(); ++i)
+      out[level].texels[3 * i + 2] += chain[level].texels[moment_channels * i + slope_yy];
+  }
+  return out;
+}
 
-// The moments, the trace of M and, if it is stored, the mean normal.
-std::vector<Image> joined(const std::vector<Image>& moments, const std::vector<Image>& normals) {
+// Mxy and the mean normal.
+std::vector<Image> cross_and_normal(const std::vector<Image>& moments, const std::vector<Image>& normals) {
   std::vector<Image> out;
   for (std::size_t level = 0; level < moments.size(); ++level) {
     const Image& from = moments[level];
-    Image& to = out.emplace_back(from.width, from.height, 9);
+    Image& to = out.emplace_back(from.width, from.height, 4);
     for (std::size_t i = 0; i < from.texel_count(); ++i) {
-      float* const texel = &to.texels[9 * i];
-      std::copy_n(&from.texels[moment_channels * i], moment_channels, texel);
-      texel[trace] = texel[slope_xx] + texel[slope_yy];
-      if (!normals.empty()) std::copy_n(&normals[level].texels[3 * i], 3, texel + normal_x);
+      to.texels[4 * i] = from.texels[moment_channels * i + slope_xy];
+      std::copy_n(&normals[level].texels[3 * i], 3, &to.texels[4 * i + 1]);
     }
   }
   return out;
 }
 
 // Two textures of one map: a shader reads them in one loop.
-void add_textures(const std::string& map, const std::vector<Image>& moments, const std::vector<Image>& normals,
+void add_textures(const std::string& map, const std::vector<Image>& moments, std::vector<Image> normals,
                   SlopeVariant variant, Storage storage, const TextureCoordinates& coordinates, Prefiltered& out) {
-  const std::vector<Image> all = joined(moments, normals);
-  const auto add = [&](const char* name, std::vector<int> channels, bool with_normal = false) {
-    if (with_normal) channels.insert(channels.end(), {normal_x, normal_x + 1, normal_x + 2});
-    if (!channels.empty())
-      out.textures.push_back(make_texture(map + name, channels_of(all, channels), storage, coordinates));
+  const auto add = [&](const char* name, std::vector<Image> chain) {
+    out.textures.push_back(make_texture(map + name, std::move(chain), storage, coordinates));
   };
-  const bool scalar = variant == SlopeVariant::scalar;
-  add("_moments", scalar ? std::vector{slope_x, slope_y, trace} : std::vector{slope_x, slope_y, slope_xx, slope_yy});
-  add("_rest", scalar ? std::vector<int>() : std::vector{slope_xy}, !normals.empty());
+  if (variant == SlopeVariant::scalar) {
+    add("_moments", with_trace(moments));
+    if (!normals.empty()) add("_rest", std::move(normals));
+    return;
+  }
+  add("_moments", channels_of(moments, {slope_x, slope_y, slope_xx, slope_yy}));
+  add("_rest", normals.empty() ? channels_of(moments, {slope_xy}) : cross_and_normal(moments, normals));
 }
 
 }  // namespace

@@ -23,15 +23,17 @@ struct DomePart {
 /// Rows of domes over the unit square, each odd row moved by half a column.
 class DomeLattice {
  public:
-  /// The number of rows is even, so that the map tiles, and makes the lattice nearly hexagonal. `variation`: how much
-  /// smaller than the largest the smallest dome is. Parameters: `count` of columns; `fill`, the radius of the largest
-  /// dome as a share of that of touching ones; `edge_degrees`, the tilt at a dome's edge.
-  DomeLattice(const SurfaceSettings& settings, double variation)
+  /// The number of rows is even, so that the map tiles, and makes the lattice nearly hexagonal. Parameters: `count` of
+  /// columns; `fill`, the radius of the largest dome as a share of that of touching ones; `edge_degrees`, the tilt at a
+  /// dome's edge; `variation`, how much smaller than the largest the smallest dome is, 0.15 without it.
+  explicit DomeLattice(const SurfaceSettings& settings)
       : edge_(std::sin(glm::radians(settings.parameters.number("edge_degrees")))),
         columns_(static_cast<int>(settings.parameters.number("count"))) {
     const double across = 1.0 / domes_.columns(), up = 1.0 / domes_.rows();
     const double room = 0.5 * std::min({across, std::hypot(0.5 * across, up), 2.0 * up});  // radius of touching discs
     const double largest = settings.parameters.number("fill") * room;
+    const bool varies = settings.parameters.all().contains("variation");
+    const double variation = varies ? settings.parameters.number("variation") : 0.15;
     std::mt19937_64 random(settings.seed);
     for (Dome& dome : domes_) {
       dome.radius = largest * (1.0 - variation * uniform(random));
@@ -79,17 +81,6 @@ class DomeLattice {
 }  // namespace
 
 namespace surfaces::scales {
-namespace {
-
-struct Scales {
-  explicit Scales(const SurfaceSettings& settings) : domes(settings, settings.parameters.number("variation")) {}
-
-  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const { return domes.normal(uv); }
-
-  DomeLattice domes;
-};
-
-}  // namespace
 
 Surface surface() {
   return {
@@ -101,7 +92,7 @@ Surface surface() {
                      number_option("variation", 0.2, 0, 0.9,
                                    "how much smaller than the largest the smallest scale is, as a share of it"),
                      number_option("edge_degrees", 90.0, 0, 90, "tilt at a scale's edge, degrees; 90: hemispheres")},
-      .normals = map_of<4, &Scales::normal>,
+      .normals = map_of<4, &DomeLattice::normal>,
       .mesh = square_mesh};
 }
 
@@ -123,9 +114,8 @@ constexpr Stuff gold{{0.16, 0.09, 0.02}, {0.72, 0.48, 0.16}, 0.0}, steel{{0.05, 
 constexpr double dullest = 24.0, glossiest = 600.0;
 
 struct Studs {
-  explicit Studs(const SurfaceSettings& settings) : domes(settings, 0.15) {}
+  explicit Studs(const SurfaceSettings& settings) : domes(settings) {}
 
-  [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const { return domes.normal(uv); }
   [[nodiscard]] glm::dvec3 color(const glm::dvec2& uv) const { return stuff(uv).albedo; }
   [[nodiscard]] glm::dvec3 specular(const glm::dvec2& uv) const { return stuff(uv).specular; }
   [[nodiscard]] double exponent(const glm::dvec2& uv) const { return stuff(uv).exponent; }
@@ -153,7 +143,7 @@ Surface surface() {
                                        "radius of the largest stud as a share of that of touching ones"),
                          number_option("edge_degrees", 90.0, 0, 90, "tilt at a stud's edge, degrees; 90: hemispheres")},
           .default_resolution = 1024,
-          .normals = map_of<4, &Studs::normal>,
+          .normals = map_of<4, &DomeLattice::normal>,
           .base_color = map_of<4, &Studs::color>,
           .specular = map_of<3, &Studs::specular>,
           .lobe_parameter = map_of<1, &Studs::exponent>,

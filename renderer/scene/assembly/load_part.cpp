@@ -116,16 +116,11 @@ Model load_content(const PartSettings& part) {
 }
 
 TextureMap load_layer(const LayerSettings& settings, std::vector<std::string>& warnings) {
-  TextureMap map;
-  if (const auto* file = std::get_if<NormalFile>(&settings.content)) {
-    map = make_map(*file, warnings, settings.uv);
-  } else {
-    const auto& [surface, surface_settings] = std::get<SurfaceContent>(settings.content);
-    Image normals = surface_normals(*surface, surface_settings);
-    scale_slopes(normals, settings.strength);
-    map = make_map(surface->name, computed(std::move(normals)), settings.uv);
-  }
-  return map;
+  if (const auto* file = std::get_if<NormalFile>(&settings.content)) return make_map(*file, warnings, settings.uv);
+  const auto& [surface, surface_settings] = std::get<SurfaceContent>(settings.content);
+  Image normals = surface_normals(*surface, surface_settings);
+  scale_slopes(normals, settings.strength);
+  return make_map(surface->name, computed(std::move(normals)), settings.uv);
 }
 
 void replace_base_color(const glm::vec3& color, Material& material) {

@@ -175,16 +175,13 @@ fs::path file_of(const fs::path& folder, std::size_t program, const char* extens
 
 template <class Value>
 void write_value(const fs::path& file, const Value& value) {
-  write_file_atomically(file, write_checksummed(form, [&](ChecksummedWriter& out) { out(value); }));
+  write_file_atomically(file, [&](const ByteSink& out) { write_checksummed(form, value, out); });
 }
 
 template <class Value>
 Value value_of(const fs::path& file) {
-  Value value;
   if (const std::optional<ByteSource> bytes = ByteSource::of_file(file)) {
-    std::optional<ChecksummedReader> in = ChecksummedReader::open(*bytes, form);
-    if (in) (*in)(value);
-    if (in && in->finished()) return value;
+    if (std::optional<Value> value = read_checksummed<Value>(form, *bytes)) return *std::move(value);
   }
   throw Error(ErrorKind::machine, file.string(), "is missing or damaged", "run the command again");
 }

@@ -45,12 +45,6 @@ std::vector<std::string> stage_names(const EditRun& run) {
   return names;
 }
 
-std::vector<double> edit_times(const EditRun& run) {
-  std::vector<double> times;
-  for (const EditRecord& record : run.records) times.push_back(milliseconds * record.seconds());
-  return times;
-}
-
 }  // namespace
 
 double EditRecord::seconds() const {
@@ -103,7 +97,8 @@ std::string edit_table(const EditRun& run) {
     }
     table.rows.push_back(table_row(stage, std::move(values)));
   }
-  std::vector<double> times = edit_times(run);
+  std::vector<double> times;
+  for (const EditRecord& record : run.records) times.push_back(milliseconds * record.seconds());
   table.rows.push_back(table_row("edit", times));
   std::ranges::sort(times);
   return text + markdown_table(table) +

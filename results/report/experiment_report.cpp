@@ -103,14 +103,11 @@ std::string claim_sentence(const ClaimOutcome& claim) {
                      claim.reason);
 }
 
-std::string outcome_in_words(std::size_t fell_short, std::size_t checks) {
-  if (checks == 0) return {};
-  if (fell_short > 0) return fmt::format("{} of {} claims and thresholds failed.", fell_short, checks);
-  return fmt::format("All {} claims and thresholds are as expected.", checks);
-}
-
 std::string summary(const ExperimentReport& report) {
-  std::string text = outcome_in_words(report.shortfalls().size(), report.claims.size() + report.thresholds.size());
+  const std::size_t failed = report.shortfalls().size(), checks = report.claims.size() + report.thresholds.size();
+  std::string text;
+  if (checks > 0) text = fmt::format("All {} claims and thresholds are as expected.", checks);
+  if (failed > 0) text = fmt::format("{} of {} claims and thresholds failed.", failed, checks);
   if (!report.quick) return text;
   if (!text.empty()) text += " ";
   return text + "Test run (--quick): smaller than the experiment, so this is not a measurement.";

@@ -31,13 +31,10 @@ std::string marked_shading(const Record& record, bool any_marked) {
   return error_text(record.error->causes.shading).append(mark);
 }
 
-bool has_light(const DistanceRecords& records) {
-  return std::ranges::any_of(records, [](const Record& r) { return r.error && r.error->causes.light; });
-}
-
 /// "Method", then the columns of the keys; the light's only if there is one. Ranks and shading errors have marks.
 Table table_of(std::vector<std::string_view> keys, const DistanceRecords& records) {
-  if (!has_light(records)) std::erase(keys, "light_error");
+  const auto has_light = [](const Record& r) { return r.error && r.error->causes.light; };
+  if (!std::ranges::any_of(records, has_light)) std::erase(keys, "light_error");
   const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
   Table table{.columns = {{"Method", false}}};
   for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});

@@ -69,15 +69,17 @@ std::optional<int> offset_in(std::string_view operands) {
   return static_cast<int>(std::stol(text, nullptr, 0));
 }
 
-class Counter {
- public:
-  explicit Counter(int descriptor_bytes) : descriptor_bytes_(descriptor_bytes) {}
+struct Counter {
+  int descriptor_bytes;
+  int depth = 0, lines = 0;
+  ShaderWork work{};
+  std::map<std::string, int> offsets{};  // of descriptors in their set, by the value that they were loaded to
 
   void read(std::string_view text) {
     if (text.starts_with("/*")) return enter_block(text);
     if (!text.starts_with("\t")) return;
     const Line line = parsed(text);
-    Instructions& counts = depth_ > 0 ? work_.looped : work_.straight;
+    Instructions& counts = depth > 0 ? work.looped : work.straight;
     if (line.name.starts_with("image_")) return count_texture(line, counts);
     if (line.name == "s_load_dwordx8" || line.name == "s_load_dwordx16") note_descriptor(line);
     if (starts_with_any(line.name, memory_access)) {
@@ -87,28 +89,22 @@ class Counter {
     } else if (line.name.starts_with("s_") || line.name.starts_with("p_cbranch")) {
       ++counts.scalar;
     }
-    ++lines_;
+    ++lines;
   }
 
-  [[nodiscard]] const ShaderWork& work() const { return work_; }
-  [[nodiscard]] int lines() const { return lines_; }
-  [[nodiscard]] const std::map<std::string, int>& offsets() const { return offsets_; }
-
- private:
   // A loop is the blocks from its header to before its exit.
   void enter_block(std::string_view kinds) {
-    if (kinds.find(" loop-exit,") != std::string_view::npos) depth_ = std::max(depth_ - 1, 0);
-    if (kinds.find(" loop-header,") != std::string_view::npos) ++depth_;
+    if (kinds.find(" loop-exit,") != std::string_view::npos) depth = std::max(depth - 1, 0);
+    if (kinds.find(" loop-header,") != std::string_view::npos) ++depth;
   }
 
   void note_descriptor(const Line& line) {
-    if (const std::optional<int> offset = offset_in(line.operands)) offsets_[value_in(line.defined)] = *offset;
+    if (const std::optional<int> offset = offset_in(line.operands)) offsets[value_in(line.defined)] = *offset;
   }
 
   void count_texture(const Line& line, Instructions& counts) {
-    const auto found = offsets_.find(value_in(line.operands));
-    TextureReads& reads =
-        counts.textures[found == offsets_.end() ? unknown_binding : found->second / descriptor_bytes_];
+    const auto found = offsets.find(value_in(line.operands));
+    TextureReads& reads = counts.textures[found == offsets.end() ? unknown_binding : found->second / descriptor_bytes];
     if (line.name.starts_with("image_gather4")) {
       ++reads.gathers;
     } else if (line.name.starts_with("image_sample")) {
@@ -117,17 +113,12 @@ class Counter {
       ++reads.loads;
     }
   }
-
-  int descriptor_bytes_;
-  int depth_ = 0, lines_ = 0;
-  ShaderWork work_;
-  std::map<std::string, int> offsets_;  // of descriptors in their set, by the value that they were loaded to
 };
 
 Counter counted(const std::string& code, int descriptor_bytes) {
-  Counter counter(descriptor_bytes);
+  Counter counter{.descriptor_bytes = descriptor_bytes};
   for (const auto line : std::views::split(code, '\n')) counter.read(std::string_view(line.begin(), line.end()));
-  if (counter.lines() == 0)
+  if (counter.lines == 0)
     throw Error(ErrorKind::machine, "ACO's code", "has no instruction",
                 "this version of Mesa prints its code in another form; report the version");
   return counter;
@@ -241,12 +232,12 @@ double Instructions::texture_reads() const {
   return sum;
 }
 
-ShaderWork shader_work(const std::string& code, int descriptor_bytes) { return counted(code, descriptor_bytes).work(); }
+ShaderWork shader_work(const std::string& code, int descriptor_bytes) { return counted(code, descriptor_bytes).work; }
 
 int descriptor_bytes(const std::string& code) {
   const Counter counter = counted(code, 1);
   std::vector<int> offsets;
-  for (const auto& [value, offset] : counter.offsets()) offsets.push_back(offset);
+  for (const auto& [value, offset] : counter.offsets) offsets.push_back(offset);
   std::ranges::sort(offsets);
   if (offsets.size() != 2 || offsets[0] != 0 || offsets[1] <= 0)
     throw Error(ErrorKind::machine, "ACO's code", "does not load the descriptors of two textures",

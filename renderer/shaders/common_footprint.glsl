@@ -146,9 +146,9 @@ vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
 
 vec2 texel_draw;  // of this sample, uniform in [0, 1)  //? if random_draws
 
-// Where a sample reads the finest level of a map. For the reference: one texel, drawn with bilinear weights by a sampler
-// that must be `nearest`. The expectation of the shaded value is then the bilinear filter of radiance. Maps with the same
-// size and coordinates draw the same texel. Or a point, where the sampler selects nearest or bilinear filtering of values.
+// Where the finest level of a map is read. A sample of the reference draws one texel with bilinear weights by a sampler
+// that must be `nearest`: the expectation of the shaded value is then the bilinear filter of radiance. Maps with the
+// same size and coordinates draw the same texel. At a point, the sampler selects nearest or bilinear filtering.
 vec2 finestUv(vec2 size, Footprint f) {
   return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size;  //? if sampling_texel
   return f.uv;                                                  //? else

@@ -1,6 +1,8 @@
 // The table of a run's settings: a new one is a field of RunSettings and a row here (adding-an-option.md).
 #include "experiments/settings/setting_types.hpp"
 
+#include <limits>
+
 namespace footprint {
 namespace {
 

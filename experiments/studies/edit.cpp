@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <memory>
 #include <utility>
 
 #include "experiments/studies/picture_files.hpp"

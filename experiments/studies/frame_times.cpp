@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 

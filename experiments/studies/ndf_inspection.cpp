@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/picture_files.hpp"

@@ -5,8 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 
 #include "renderer/core/error.hpp"
 #include "results/report/page.hpp"

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "renderer/core/files.hpp"
 #include "results/report/experiment_report.hpp"

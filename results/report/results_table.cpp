@@ -4,9 +4,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "renderer/core/memory.hpp"
 #include "results/report/experiment_report.hpp"

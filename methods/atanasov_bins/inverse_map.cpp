@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "renderer/core/error.hpp"
 #include "renderer/microgeometry/direction_grid.hpp"
@@ -26,25 +26,28 @@ int across_of(const BinMap& map, const TexelClasses& classes, std::size_t own) {
   return classes.across.empty() ? map.across : classes.across[own];
 }
 
-// Sorts texels by the keys of their bins, those of one key row by row, and lists the keys.
+// A counting sort of texels by the keys of their bins, those of one key row by row, and the lists of the keys.
 void sort_by_bin(const BinMap& map, const TexelClasses& classes, InverseMap& out) {
-  std::vector<std::uint64_t> order(map.normals.size());  // key and number of each texel
-  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+  const auto last =
+      static_cast<std::uint32_t>(std::max<std::size_t>(classes.across.size(), 1) << bin_bits);  // the place of no_key
+  std::vector<std::uint32_t> places(map.normals.size());
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
     const std::size_t own = classes.of_texel.empty() ? 0 : classes.of_texel[i];
     const std::uint32_t normal = map.normals[i];
-    const std::uint64_t key =
-        normal == no_normal ? no_key : bin_key(own, bin_of_packed(normal, across_of(map, classes, own)));
-    order[i] = key << 32U | i;
+    places[i] = normal == no_normal ? last : bin_key(own, bin_of_packed(normal, across_of(map, classes, own)));
   });
-  tbb::parallel_sort(order.begin(), order.end());
-  out.texels.reserve(order.size());
-  for (const std::uint64_t texel : order) {
-    const auto key = static_cast<std::uint32_t>(texel >> 32U), number = static_cast<std::uint32_t>(texel);
-    if (out.lists.empty() || out.lists.back().key != key)
-      out.lists.push_back({.key = key, .first = static_cast<std::uint32_t>(out.texels.size()), .root = 0});
-    const auto width = static_cast<std::uint32_t>(map.width);
-    out.texels.push_back(number / width << 16U | number % width);
+  std::vector<std::uint32_t> next(std::size_t{last} + 1);  // counts, then the first texel of each place
+  for (const std::uint32_t place : places) ++next[place];
+  std::uint32_t first = 0;
+  for (std::uint32_t place = 0; place <= last; ++place) {
+    if (next[place] == 0) continue;
+    out.lists.push_back({.key = place == last ? no_key : place, .first = first, .root = 0});
+    first += std::exchange(next[place], first);
   }
+  out.texels.resize(places.size());
+  const auto width = static_cast<std::size_t>(map.width);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    out.texels[next[places[i]]++] = static_cast<std::uint32_t>(i / width << 16U | i % width);
 }
 
 // Appends space for a node to the forest, and returns its position.

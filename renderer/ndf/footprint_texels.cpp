@@ -18,6 +18,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "renderer/ndf/filter_probes.hpp"
 
 namespace footprint {
 namespace {
@@ -175,49 +176,16 @@ Levels levels_of(double level, int count) {
   return {static_cast<int>(std::floor(inside + negligible)), static_cast<int>(std::ceil(inside - negligible))};
 }
 
-// The lookups of a filter over a footprint whose edges are those of the map: their level, and how far they are from its
-// centre, in texels of the finest level.
-struct Lookups {
-  double level = 0.0;
-  glm::dvec2 reach{0.0};
-};
-
-// docs/reference/filters.md has the sources. None: others choose them, or rows of texels do (`area`).
-std::optional<Lookups> lookups_of(const FootprintFilter& filter, const glm::dvec2& edges) {
-  const int axis = edges.x > edges.y ? 0 : 1;  // along the longer edge
-  const double longer = edges[axis], shorter = edges[1 - axis], most = filter.count;
-  const auto along = [&](double level, double reach) {
-    Lookups out{.level = level};
-    out.reach[axis] = reach;
-    return out;
-  };
-  switch (filter.kind) {
-    case FootprintFilterKind::trilinear:
-      return along(std::log2(longer), 0.0);
-    case FootprintFilterKind::box:
-    case FootprintFilterKind::shaded:
-      return Lookups{std::log2(longer / most), (0.5 - 0.5 / most) * edges};
-    case FootprintFilterKind::anisotropic: {
-      const double count = std::ceil(std::min(0.999 * longer / std::max(shorter, 1e-12), most));
-      return along(std::log2(longer / count), longer * (0.5 - 1.0 / (count + 1.0)));
+// The range of probes along one axis, in whole texels of the coarser level.
+Range range_of(const ProbeSet& probes, int axis, const Levels& levels) {
+  double first = probes.probes.front().centre[axis], end = first;
+  for (const Probe& probe : probes.probes) {
+    for (int level = levels.finer; level <= levels.coarser; ++level) {
+      const double texel = std::ldexp(1.0, level);
+      const double at = probe.centre[axis] / texel - 0.5;
+      first = std::min(first, texel * std::floor(at + negligible));
+      end = std::max(end, texel * (std::ceil(at - negligible) + 1.0));
     }
-    case FootprintFilterKind::ewa: {
-      const double count = std::clamp(std::ceil(2.0 * longer / std::max(shorter, 1.0) - 1.0), 1.0, most);
-      const double width = std::max({shorter, 1.0, 2.0 * longer / (count + 1.0)});
-      return along(std::log2(width), std::max(longer - width, 0.0));
-    }
-    default:
-      return {};
-  }
-}
-
-// The range of lookups between two places of an axis, in whole texels of the coarser level.
-Range range_of(double lower, double upper, const Levels& levels) {
-  double first = lower, end = upper;
-  for (int level = levels.finer; level <= levels.coarser; ++level) {
-    const double texel = std::ldexp(1.0, level);
-    first = std::min(first, texel * std::floor(lower / texel - 0.5 + negligible));
-    end = std::max(end, texel * (std::ceil(upper / texel - 0.5 - negligible) + 1.0));
   }
   const double block = std::ldexp(1.0, levels.coarser);
   return {static_cast<int>(block * std::floor(first / block)), static_cast<int>(block * std::ceil(end / block))};
@@ -344,17 +312,16 @@ std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facet
 
 std::optional<FootprintPart> part_under(const Material& material, const FootprintRect& rect,
                                         const FootprintFilter& filter) {
-  if (!material.normal_map) return {};
+  if (!material.normal_map || filter.kind == FootprintFilterKind::hardware) return {};
   const MapTexels& map = material.normal_map->image;
   const glm::dvec2 size(map.width(), map.height());
-  const std::optional<Lookups> lookups = lookups_of(filter, rect.size() * size);
-  if (!lookups) return {};
-  const glm::dvec2 lower = rect.centre() * size - lookups->reach, upper = rect.centre() * size + lookups->reach;
-  const Levels levels = levels_of(lookups->level, mip_level_count(map.width(), map.height()));
+  const ProbeSet probes =
+      probes_of(filter, {rect.centre() * size, {rect.size().x * size.x, 0.0}, {0.0, rect.size().y * size.y}});
+  const Levels levels = levels_of(probes.level, mip_level_count(map.width(), map.height()));
   const std::array<Wrap, 2>& wrap = material.normal_map->coordinates.wrap;
   const int block = 1 << levels.coarser;
-  const Range columns = cut(range_of(lower.x, upper.x, levels), map.width(), wrap[0], block);
-  const Range rows = cut(range_of(lower.y, upper.y, levels), map.height(), wrap[1], block);
+  const Range columns = cut(range_of(probes, 0, levels), map.width(), wrap[0], block);
+  const Range rows = cut(range_of(probes, 1, levels), map.height(), wrap[1], block);
   if (2.0 * columns.size() * rows.size() > size.x * size.y) return {};
 
   const glm::dvec2 scale = size / glm::dvec2(columns.size(), rows.size());

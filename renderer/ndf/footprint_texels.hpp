@@ -70,7 +70,7 @@ struct FootprintPart {
 /// `filter` in `rect`. The part consists of whole texels of the coarsest level used, and crosses the border of a
 /// repeating map. Other maps stay unchanged.
 /// Returns nothing if the part would exceed half of the map, if the size of the map is not a multiple of those texels,
-/// or if the driver (`hardware`) or the rows of texels (`area`) choose the lookups.
+/// or if the driver chooses the lookups (`hardware`).
 [[nodiscard]] std::optional<FootprintPart> part_under(const Material& material, const FootprintRect& rect,
                                                       const FootprintFilter& filter);
 

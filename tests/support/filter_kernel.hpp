@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/image/image.hpp"
-#include "tests/support/filter_probes.hpp"
+#include "renderer/ndf/filter_probes.hpp"
 
 namespace footprint::testing {
 

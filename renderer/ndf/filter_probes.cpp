@@ -1,5 +1,5 @@
 // The probes of each filter; sources are in docs/reference/filters.md.
-#include "tests/support/filter_probes.hpp"
+#include "renderer/ndf/filter_probes.hpp"
 
 #include <algorithm>
 #include <cmath>

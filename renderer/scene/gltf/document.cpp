@@ -1,4 +1,4 @@
-// Checks container and JSON before buffers are read. Images stay encoded; files come from the model's folder only.
+// Checks container and JSON before buffers are read, which come from the model's folder. Images stay encoded.
 #include "renderer/scene/gltf/document.hpp"
 
 #include <fmt/format.h>
@@ -86,8 +86,8 @@ Bytes data_of(std::string_view uri) {
   return bytes;
 }
 
-// A file in the document's folder. The URI may have "%20" for a blank.
-std::filesystem::path file_of(const GltfDocument& document, const std::string& uri) {
+// The path in a URI, which may have "%20" for a blank.
+std::filesystem::path path_of(const std::string& uri) {
   std::string name;
   for (std::size_t i = 0; i < uri.size(); ++i) {
     std::uint8_t code = 0;
@@ -96,7 +96,7 @@ std::filesystem::path file_of(const GltfDocument& document, const std::string& u
     name += encoded ? static_cast<char>(code) : uri[i];
     if (encoded) i += 2;
   }
-  return document.file.parent_path() / std::filesystem::path(name).relative_path();
+  return name;
 }
 
 Bytes buffer_bytes(const GltfDocument& document, const Json& buffer, std::span<const std::uint8_t> binary) {
@@ -109,7 +109,8 @@ Bytes buffer_bytes(const GltfDocument& document, const Json& buffer, std::span<c
     return {binary.begin(), binary.begin() + static_cast<std::ptrdiff_t>(length)};
   }
   const bool is_within = uri.starts_with("data:");
-  Bytes bytes = is_within ? data_of(uri) : read_file_bytes(file_of(document, uri), largest_file);
+  Bytes bytes = is_within ? data_of(uri)
+                          : read_file_bytes(document.file.parent_path() / path_of(uri).relative_path(), largest_file);
   if (bytes.size() != length)
     refuse_gltf({}, fmt::format("{} has {} bytes, byteLength is {}",
                                 is_within ? "its data URI" : fmt::format("`{:.80}`", uri), bytes.size(), length));
@@ -175,7 +176,7 @@ GltfImage gltf_image(const GltfDocument& document, std::size_t index) {
   }
   if (uri.starts_with("data:")) return {.file = {}, .bytes = data_of(uri)};
   if (uri.empty()) refuse_gltf(fmt::format("images[{}]", index), "has neither a buffer view nor a URI");
-  return {.file = file_of(document, uri), .bytes = {}};
+  return {.file = document.file.parent_path() / path_of(uri), .bytes = {}};
 }
 
 }  // namespace footprint

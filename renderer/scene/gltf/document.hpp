@@ -42,7 +42,7 @@ struct GltfDocument {
 
 /// An encoded image.
 struct GltfImage {
-  std::filesystem::path file;       ///< in the document's folder, of any content; empty: `bytes`
+  std::filesystem::path file;  ///< of any content, from the document's folder if its path is relative; empty: `bytes`
   std::vector<std::uint8_t> bytes;  ///< of a buffer view or a data URI
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "renderer/image/image_io.hpp"
 #include "renderer/scene/model.hpp"
 #include "tests/support/expect_near.hpp"
 #include "tests/support/gltf_builder.hpp"
@@ -386,6 +387,19 @@ TEST(Gltf, ExternalFilesAreReadWithEscapedNames) {
   json document = quad.json;
   document["buffers"] = {{{"byteLength", bytes.size()}, {"uri", "../external/buffer%20one.bin"}}};
   EXPECT_EQ(load_gltf(test::write_file("sub/made.gltf", document.dump())).meshes.at(0).vertices.size(), 4U);
+}
+
+TEST(Gltf, ImagesAreReadFromAbsolutePathsToo) {
+  GltfBuilder quad = make_quad();
+  const std::filesystem::path file = std::filesystem::absolute(test::write_file("apart/wall.png", ""));
+  write_png(file, Image(2, 2, 3, 1.0F));
+  quad.json["images"] = {{{"uri", file.parent_path().string() + "/w%61ll.png"}}};
+  quad.json["textures"] = {{{"source", 0}}};
+  quad.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Model model = load_gltf(quad.write());
+  ASSERT_TRUE(model.materials.at(0).base_color_map);
+  EXPECT_EQ(model.materials[0].base_color_map->image.decoded().at(1, 1)[0], 1.0F);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ void ByteArchive::pass(bool& value) {
   auto byte = static_cast<std::uint8_t>(value);
   pass(byte);
   whole_ = whole_ && byte <= 1;
-  value = byte == 1;
+  if (in_) value = byte == 1;  // what is written may be constant
 }
 
 void ByteArchive::pass(std::string& text) {

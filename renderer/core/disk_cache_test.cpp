@@ -159,15 +159,15 @@ struct MoreNumbers {
   std::optional<int> more{};
 };
 
-std::vector<std::uint8_t> sealed(std::string_view form, const auto& value) {
+std::vector<std::uint8_t> checksummed(std::string_view form, const auto& value) {
   std::vector<std::uint8_t> bytes;
   write_checksummed(form, value, appending_to(bytes));
   return bytes;
 }
 
-TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
+TEST(ChecksummedBytes, ValuesComeBackAndNothingIsLeft) {
   const Numbers numbers{7, "seven", {1.5F, -2.0F}};
-  const std::vector<std::uint8_t> bytes = sealed("numbers 1", numbers);
+  const std::vector<std::uint8_t> bytes = checksummed("numbers 1", numbers);
   EXPECT_EQ(read_checksummed<Numbers>("numbers 1", bytes), numbers);
   EXPECT_FALSE(read_checksummed<int>("numbers 1", bytes)) << "something is left";
   EXPECT_FALSE(read_checksummed<MoreNumbers>("numbers 1", bytes)) << "there is nothing more";
@@ -175,9 +175,9 @@ TEST(SealedBytes, ValuesComeBackAndNothingIsLeft) {
 }
 
 // Found by scripts/fuzz: any byte was taken for a bool.
-TEST(SealedBytes, AByteThatIsNeither0Nor1IsNoBool) {
+TEST(ChecksummedBytes, AByteThatIsNeither0Nor1IsNoBool) {
   for (const int byte : {0, 1, 2, 115, 255}) {
-    const std::vector<std::uint8_t> bytes = sealed("bools 1", static_cast<std::uint8_t>(byte));
+    const std::vector<std::uint8_t> bytes = checksummed("bools 1", static_cast<std::uint8_t>(byte));
     const std::optional<bool> read = read_checksummed<bool>("bools 1", bytes);
     EXPECT_EQ(read.has_value(), byte <= 1) << byte;
     EXPECT_EQ(read.value_or(false), byte == 1) << byte;
@@ -185,7 +185,7 @@ TEST(SealedBytes, AByteThatIsNeither0Nor1IsNoBool) {
 }
 
 // Undefined bytes would make equal values differ.
-TEST(SealedBytes, StructuresWithGapsArePassedMemberByMember) {
+TEST(ChecksummedBytes, StructuresWithGapsArePassedMemberByMember) {
   struct Gap {
     std::uint8_t small;
     std::uint32_t large;
@@ -196,7 +196,7 @@ TEST(SealedBytes, StructuresWithGapsArePassedMemberByMember) {
   };
   static_assert(passes_as_bytes<Whole>() && !passes_as_bytes<Gap>() && !passes_as_bytes<bool>() &&
                 !passes_as_bytes<std::optional<int>>());
-  EXPECT_EQ(sealed("form", Whole{1, {}}).size() - sealed("form", Gap{1, 2}).size(), 12U - 5U);
+  EXPECT_EQ(checksummed("form", Whole{1, {}}).size() - checksummed("form", Gap{1, 2}).size(), 12U - 5U);
 }
 
 }  // namespace

@@ -333,8 +333,7 @@ void check_uris(const json& document, const std::string& array) {
     const std::string where = fmt::format("{}[{}].uri", array, i);
     if (uri.starts_with("data:")) {
       if (!std::string_view(uri).substr(0, uri.find(',')).ends_with(";base64")) {
-        refuse_gltf(where, fmt::format("this kind of data URI cannot be read: `{:.40}`", uri),
-                    "use base64 with application/octet-stream, image/png or image/jpeg");
+        refuse_gltf(where, fmt::format("this kind of data URI cannot be read: `{:.40}`", uri), "encode it in base64");
       }
     } else if (uri.find("://") != std::string::npos) {
       refuse_gltf(where, fmt::format("`{:.120}` is not fetched from the network", uri),

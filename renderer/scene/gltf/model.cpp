@@ -112,7 +112,8 @@ Light convert_light(const Json& source, std::size_t index, const glm::dmat4& wor
   if (range > 0.0) point.range = static_cast<float>(range);
   if (type == "point") return point;
   require(type == "spot", place, "is none of point, spot, directional");
-  const Json spot = source.value("spot", Json::object());
+  require(source.contains("spot"), place, "needs `spot`, as its type is");
+  const Json& spot = source["spot"];
   const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", std::numbers::pi / 4.0);
   require(inner >= 0.0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6, place,
           "needs 0 <= innerConeAngle < outerConeAngle <= pi / 2");

@@ -12,7 +12,7 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(fmt CONFIG REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(Eigen3 CONFIG REQUIRED)
-find_package(embree 3 CONFIG REQUIRED)
+find_package(embree CONFIG REQUIRED)  # 3 or 4: renderer/visibility/embree.hpp
 find_package(glslang CONFIG REQUIRED)
 find_package(spirv_cross_c_shared CONFIG REQUIRED)
 find_package(VulkanHeaders CONFIG REQUIRED)

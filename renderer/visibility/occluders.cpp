@@ -66,20 +66,6 @@ bool is_there(const Mesh& mesh, const Material& material, const Image& alpha_map
   return alpha >= *material.alpha_cutoff;
 }
 
-RTCRay ray_of(const glm::vec3& origin, const glm::vec3& direction, float least, float most) {
-  RTCRay ray{};
-  ray.org_x = origin.x;
-  ray.org_y = origin.y;
-  ray.org_z = origin.z;
-  ray.dir_x = direction.x;
-  ray.dir_y = direction.y;
-  ray.dir_z = direction.z;
-  ray.tnear = least;
-  ray.tfar = most;
-  ray.mask = ~0U;
-  return ray;
-}
-
 }  // namespace
 
 Occluders::Occluders(const Scene& scene)
@@ -137,33 +123,26 @@ void Occluders::away_from_light(const RTCFilterFunctionNArguments* hits) { drop_
 bool Occluders::open_from_behind(std::size_t mesh) const { return sieves_[mesh].open_from_behind; }
 
 bool Occluders::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
-  RTCIntersectContext context{};
-  rtcInitIntersectContext(&context);
-  RTCRay ray = ray_of(origin, direction, 0.0F, distance);
-  rtcOccluded1(rays_.get(), &context, &ray);
-  return ray.tfar < 0.0F;
+  RTCRay ray = embree_ray(origin, direction, 0.0F, distance);
+  query_occlusion(rays_.get(), ray);
+  return is_occluded(ray);
 }
 
 std::vector<bool> Occluders::blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const {
-  RTCIntersectContext context{};
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   std::vector<RTCRay> rays;
   rays.reserve(directions.size());
-  for (const glm::vec3& direction : directions) rays.push_back(ray_of(origin, direction, 0.0F, unlimited));
-  rtcOccluded1M(rays_.get(), &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRay));
+  for (const glm::vec3& direction : directions) rays.push_back(embree_ray(origin, direction));
+  query_occlusion(rays_.get(), rays);
   std::vector<bool> out;
   out.reserve(rays.size());
-  for (const RTCRay& ray : rays) out.push_back(ray.tfar < 0.0F);
+  for (const RTCRay& ray : rays) out.push_back(is_occluded(ray));
   return out;
 }
 
 std::optional<SurfacePoint> Occluders::nearest(const glm::vec3& origin, const glm::vec3& direction, float least) const {
-  RTCIntersectContext context{};
-  rtcInitIntersectContext(&context);
-  RTCRayHit found{.ray = ray_of(origin, direction, least, unlimited), .hit = {}};
+  RTCRayHit found{.ray = embree_ray(origin, direction, least), .hit = {}};
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(rays_.get(), &context, &found);
+  query_nearest(rays_.get(), found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return SurfacePoint{found.hit.geomID, found.hit.primID, found.hit.u, found.hit.v};
 }

@@ -1,8 +1,6 @@
 // Ray queries against the triangles of a scene: occlusion and nearest points.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "renderer/scene/scene.hpp"
+#include "renderer/visibility/embree.hpp"
 
 namespace footprint {
 
@@ -58,10 +57,6 @@ class Occluders {
   [[nodiscard]] float offset() const { return offset_; }
 
  private:
-  struct Release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene rays) const { rtcReleaseScene(rays); }
-  };
   // The data of the hit filter, for meshes with an alpha mask or open from behind.
   struct Sieve {
     const Mesh* mesh;
@@ -79,8 +74,8 @@ class Occluders {
   const Scene* scene_;
   float offset_;
   std::vector<Sieve> sieves_;
-  std::unique_ptr<RTCDeviceTy, Release> device_;
-  std::unique_ptr<RTCSceneTy, Release> rays_;
+  EmbreeDevice device_;
+  EmbreeScene rays_;
 };
 
 }  // namespace footprint

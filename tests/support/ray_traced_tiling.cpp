@@ -1,22 +1,13 @@
 // A scene of as many copies of the patch as a ray may cross.
 #include "tests/support/ray_traced_tiling.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <type_traits>
+
+#include "renderer/visibility/embree.hpp"
 
 namespace footprint::testing {
 namespace {
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
 
 // Vertices and indices of the copies.
 void fill(const Patch& patch, int copies, float* vertices, std::uint32_t* indices) {
@@ -39,8 +30,8 @@ void fill(const Patch& patch, int copies, float* vertices, std::uint32_t* indice
 }  // namespace
 
 struct RayTracedTiling::Handles {
-  std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device;
-  std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene;
+  EmbreeDevice device;
+  EmbreeScene scene;
 };
 
 RayTracedTiling::RayTracedTiling(const Patch& patch, int copies) : handles_(std::make_unique<Handles>()) {
@@ -64,20 +55,10 @@ RayTracedTiling::RayTracedTiling(const Patch& patch, int copies) : handles_(std:
 RayTracedTiling::~RayTracedTiling() = default;
 
 bool RayTracedTiling::sees(const glm::vec3& position, const glm::dvec3& direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay ray{};
-  ray.org_x = position.x;
-  ray.org_y = position.y;
-  ray.org_z = position.z;
-  ray.dir_x = static_cast<float>(direction.x);
-  ray.dir_y = static_cast<float>(direction.y);
-  ray.dir_z = static_cast<float>(direction.z);
-  ray.tnear = 2e-5F;  // over the facet's own rounding
-  ray.tfar = std::numeric_limits<float>::infinity();
-  ray.mask = ~0U;
-  rtcOccluded1(handles_->scene.get(), &context, &ray);
-  return ray.tfar > 0.0F;
+  constexpr float least = 2e-5F;  // over the facet's own rounding
+  RTCRay ray = embree_ray(position, glm::vec3(direction), least);
+  query_occlusion(handles_->scene.get(), ray);
+  return !is_occluded(ray);
 }
 
 }  // namespace footprint::testing

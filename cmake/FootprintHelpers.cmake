@@ -58,12 +58,28 @@ endif()
 # which a library of OpenImageIO starts, sleep while they wait. The end-to-end tests draw as users do.
 set(FOOTPRINT_TEST_ENVIRONMENT GALLIVM_PERF=nopt OMP_WAIT_POLICY=passive)
 
-# footprint_add_test(NAME SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry.
+# The tiers of tests, as ctest labels. fast: what to run at each edit, without OpenGL but for one small frame per method;
+# full: everything else that scripts/test and CI run; nightly: only with `ctest -C nightly` (scripts/test --nightly).
+set(FOOTPRINT_TEST_TIERS fast full nightly)
+
+# footprint_set_tier(NAME TIER): labels a test; called by the three functions that define tests.
+function(footprint_set_tier name tier)
+  if(NOT tier IN_LIST FOOTPRINT_TEST_TIERS)
+    message(FATAL_ERROR "test ${name}: TIER is `${tier}`, not one of: ${FOOTPRINT_TEST_TIERS}")
+  endif()
+  set_property(TEST ${name} APPEND PROPERTY LABELS ${tier})
+endfunction()
+
+# footprint_add_test(NAME [TIER tier] SOURCES ... LIBRARIES ...): one GTest binary, one ctest entry; of the tier `full`
+# unless named.
 function(footprint_add_test name)
   if(NOT FOOTPRINT_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIER" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT ARG_TIER)
+    set(ARG_TIER full)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE footprint_settings ${ARG_LIBRARIES} GTest::gtest_main)
   target_compile_options(${name} PRIVATE ${FOOTPRINT_TEST_OPTIONS})
@@ -71,6 +87,35 @@ function(footprint_add_test name)
   footprint_unite(${name})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${FOOTPRINT_TEST_SECONDS} ENVIRONMENT "${FOOTPRINT_TEST_ENVIRONMENT}")
+  footprint_set_tier(${name} ${ARG_TIER})
+endfunction()
+
+# footprint_add_command_test(NAME TIER tier COMMAND ... [TIMEOUT seconds] [ENVIRONMENT name=value ...]): one ctest entry of
+# any command; exit code 77 skips it, because a package is missing.
+function(footprint_add_command_test name)
+  if(NOT FOOTPRINT_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIER;TIMEOUT" "COMMAND;ENVIRONMENT" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT ${FOOTPRINT_TEST_SECONDS})
+  endif()
+  if(ARG_TIER STREQUAL nightly)
+    set(only CONFIGURATIONS nightly)
+  endif()
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND} ${only})
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77)
+  set_property(TEST ${name} PROPERTY ENVIRONMENT "FOOTPRINT_PROGRAM=$<TARGET_FILE:footprint>"
+                                                 "FOOTPRINT_SOURCE_DIR=${PROJECT_SOURCE_DIR}" ${ARG_ENVIRONMENT})
+  footprint_set_tier(${name} ${ARG_TIER})
+endfunction()
+
+# footprint_add_script_test(NAME TIER tier SCRIPT file.py [ARGUMENTS ...] ...): such an entry of a Python script of the
+# current folder; further arguments are those of footprint_add_command_test.
+function(footprint_add_script_test name)
+  cmake_parse_arguments(ARG "" "SCRIPT" "ARGUMENTS" ${ARGN})
+  footprint_add_command_test(${name} COMMAND "${FOOTPRINT_PYTHON}" -B "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT}"
+                                             ${ARG_ARGUMENTS} ${ARG_UNPARSED_ARGUMENTS})
 endfunction()
 
 # footprint_embed(TARGET SYMBOL PATTERN ...): the texts of the files that match as `extern const EmbeddedTexts SYMBOL` in

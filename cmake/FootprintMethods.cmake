@@ -37,7 +37,7 @@ function(footprint_add_method name)
   if(ARG_BAKE_TESTS AND FOOTPRINT_TESTS)
     list(TRANSFORM ARG_BAKE_TESTS REPLACE "(.+)" "${folder}/\\1_test.cpp")
     list(REMOVE_ITEM tests ${ARG_BAKE_TESTS})
-    footprint_add_test(footprint_${name}_bake_test SOURCES ${ARG_BAKE_TESTS}
+    footprint_add_test(footprint_${name}_bake_test TIER fast SOURCES ${ARG_BAKE_TESTS}
                        LIBRARIES ${libraries} footprint_scene_testing)
     footprint_without_gl(footprint_${name}_bake_test)
   endif()

@@ -23,10 +23,23 @@ as_root() {
   fi
 }
 
-# Configures a preset into build/PRESET. CMake reads its own cache, so a second run takes a moment.
+# configure PRESET [ARGUMENT...]: configures a preset of CMakePresets.json. CMake reads its own cache, so a second run
+# takes a moment.
 configure() {
-  step "Configuring build/$1"
-  cmake --preset "$1" -S "$footprint_root"
+  step "Configuring: $1"
+  cmake --preset "$@" -S "$footprint_root"
+}
+
+# first_command NAME...: prints the first that is installed.
+first_command() {
+  local name
+  for name in "$@"; do
+    if command -v "$name" >/dev/null; then
+      printf '%s\n' "$name"
+      return
+    fi
+  done
+  die "none of these is installed: $*"
 }
 
 # list_sources [PATH...]: the C++ sources that git tracks, or all without a git checkout, each followed by a zero byte;

@@ -150,7 +150,7 @@ void run_bake(const BakeArguments& arguments) {
   require_room(arguments.output);
   if (arguments.gltf) require_gltf(run.scene);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [text, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+  const auto [text, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const std::optional<ExrChain> slopes =
         lower_extension(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
     const Scene scene =

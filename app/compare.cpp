@@ -44,7 +44,7 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
   const ResultsWatch so_far = [&](Results results) {
     sign(results.tool, results.backend);
     results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished; more distances follow");
-    write_report(results, folder.path());
+    write_report(results, folder.run());
     if (!quiet && !std::exchange(has_message, true))
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
@@ -52,7 +52,7 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
   const CompareContext context{.further_times = times_of_processes(others, {}, folder.path(), of_others),
                                .so_far = so_far,
                                .gpu_compiler = amd_compiler()};
-  Results results = run_compare(settings, folder.path(), parts.next(main_process_weight, ""), context);
+  Results results = run_compare(settings, folder.run(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
 }
@@ -63,12 +63,13 @@ void run_compare_command(const CompareArguments& arguments) {
   if (!arguments.timing_file.empty()) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));
   }
-  const auto [results, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+  warn_without_captions();
+  const auto [results, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     return compare_into(folder, settings, arguments.quiet, display.callback());
   });
   display.finish();
   print_results(results, path, arguments.verbose);
-  if (const auto failed = row_failures(results)) throw *failed;
+  throw_first({row_failures(results), lost});
 }
 
 namespace fs = std::filesystem;
@@ -123,9 +124,12 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
     const auto [first, last] = range_of(shard, static_cast<std::size_t>(settings.view.zoom.frames));
     std::vector<std::size_t> frames(last - first);
     std::iota(frames.begin(), frames.end(), first);
+    std::string fingerprint =
+        measure_views(settings, frames, scratch.run(), display.callback(), {.finished = &finished});
+    require_stored(scratch);
     return {.kind = PartKind::animation,
             .experiment = settings.scene,
-            .fingerprint = measure_views(settings, frames, scratch.path(), display.callback(), {.finished = &finished}),
+            .fingerprint = std::move(fingerprint),
             .tile = settings.backend.tile};
   });
 }
@@ -175,7 +179,7 @@ fs::path find_ffmpeg() {
 
 // Writes FOLDER/images/film.mp4, the reference and then all methods side by side, and returns its path from the folder.
 // One input per column; sides are padded to even numbers, as the pixel format needs. Errors (machine): ffmpeg ends
-// otherwise than well, in its own words; an interrupt through `progress`: ffmpeg is ended.
+// with a failure, in its own words; an interrupt through `progress`: ffmpeg is ended.
 std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs::path& folder,
                       const Progress& progress) {
   const auto [exit_code, words] = run_child(
@@ -194,10 +198,13 @@ void run_animate(const AnimateArguments& arguments) {
   const fs::path ffmpeg = arguments.video ? find_ffmpeg() : fs::path();
   const FinishedWork finished = finished_work_of(settings, arguments.output, arguments.fresh);
   ProgressDisplay display(progress_style(arguments.quiet));
-  write_and_print_animation(arguments.output, [&](const fs::path& folder) {
+  write_and_print_animation(arguments.output, [&](const RunFolder& folder) {
     ProgressParts parts(display.callback(), 20);
     Results animation = run_compare(settings, folder, parts.next(19, ""), {.finished = &finished});
-    if (arguments.video) animation.film = make_film(ffmpeg, animation, folder, parts.next(1, ""));
+    if (arguments.video) {
+      folder.attempt(film_file,
+                     [&] { animation.film = make_film(ffmpeg, animation, folder.path(), parts.next(1, "")); });
+    }
     display.finish();
     return animation;
   });

@@ -34,45 +34,49 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
       .finished = &finished,
       .watch = watch,
       .gpu_compiler = amd_compiler_if_installed()};
-  Results results = run_experiment(experiment, folder.path(), parts.next(main_process_weight, ""), context);
+  Results results = run_experiment(experiment, folder.run(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
 }
 
-ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results> members, const fs::path& output) {
+// failed: set to the losses of the report, if it has none.
+ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results> members, const fs::path& output,
+                               std::optional<Error>& failed) {
   const Experiment& whole = group.judged();
   MatrixResults results{.report = judge(whole, members), .left_out = group.left_out};
   results.report.quick = whole.quick;
   for (std::size_t i = 0; i < members.size(); ++i)
     results.members.push_back({.folder = group.experiments[i].name, .results = std::move(members[i])});
-  const auto [text, path] = write_whole(output, [&](OutputFolder& folder) {
-    write_matrix_report(results, folder.path());
+  const auto [text, path, lost] = write_whole(output, [&](OutputFolder& folder) {
+    write_matrix_report(results, folder.run());
     keep(folder);
     return matrix_table(results);
   });
   write_output(fmt::format("{}\npage: {}\n", text, (path / "index.html").string()));
+  if (!failed) failed = lost;
   return std::move(results.report);
 }
 
 // Runs a group into its folders below `output`, prints its results and passes them to the listener.
-// failed: set to the first failure of a row, if it has none.
+// failed: set to the first failure of a row or loss of a file, if it has none.
 void run_group(const RequestedExperiments& requested, const ExperimentGroup& group, const fs::path& output,
                const FinishedWork& finished, bool quiet, const RunListener& listener, std::optional<Error>& failed) {
   NoiseGuard guard(group.judged(), group.experiments);
   std::vector<Results> all;
   for (const Experiment& experiment : group.experiments) {
     ProgressDisplay display(progress_style(quiet));
-    auto [results, path] = write_whole(output / requested.folder_of(experiment), [&](OutputFolder& folder) {
+    auto [results, path, lost] = write_whole(output / requested.folder_of(experiment), [&](OutputFolder& folder) {
       return run_into(experiment, folder, finished, display.callback(), guard.watch(experiment));
     });
     display.finish();
     if (!group.matrix) print_results(results, path);
     listener.experiment(results);
     if (!failed) failed = row_failures(results);
+    if (!failed) failed = lost;
     all.push_back(std::move(results));
   }
   if (!group.matrix) return;
-  listener.matrix(report_matrix(group, std::move(all), output / requested.folder_of(*group.matrix)));
+  listener.matrix(report_matrix(group, std::move(all), output / requested.folder_of(*group.matrix), failed));
 }
 
 std::vector<WorkUnit> all_units(const RequestedExperiments& requested) {
@@ -286,6 +290,12 @@ std::optional<Error> run_and_print(const RequestedExperiments& requested, const 
       "fix the causes and run it again; finished experiments are reused");
 }
 
+void require_stored(const OutputFolder& scratch) {
+  const std::vector<Error>& losses = scratch.run().losses();
+  if (!losses.empty())
+    throw Error(ErrorKind::machine, losses.front().place(), losses.front().message(), losses.front().hint());
+}
+
 void run_part(const RequestedExperiments& requested, const Shard& shard, const fs::path& output,
               const FinishedWork& finished, bool quiet) {
   const OutputFolder scratch(output);  // never moved to its place
@@ -300,15 +310,16 @@ void run_part(const RequestedExperiments& requested, const Shard& shard, const f
   for (const WorkUnit& unit : share) {
     const Experiment& experiment = *unit.experiment;
     const Progress progress = parts.next(1, experiment.full_name() + ": ");
-    const fs::path pictures = scratch.path() / experiment.full_name();
-    fs::create_directories(pictures);
+    const RunFolder pictures = scratch.run().below(experiment.full_name());
+    fs::create_directories(pictures.path());
     measure_unit(unit, pictures, progress,
-                 {.further_times = further_times_of(experiment, pictures, progress),
+                 {.further_times = further_times_of(experiment, pictures.path(), progress),
                   .finished = &finished,
                   .watch = guards.at(&experiment)->watch(experiment),
                   .gpu_compiler = amd_compiler_if_installed()});
   }
   display.finish();
+  require_stored(scratch);
 }
 
 }  // namespace footprint

@@ -11,6 +11,7 @@
 #include "experiments/runner/experiment.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/files.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
@@ -77,6 +78,9 @@ struct RunListener {
 /// part.json says that the part is whole, and is there only then.
 void make_part(const Shard& shard, const std::filesystem::path& output, const FinishedWork& finished,
                const std::function<PartFile()>& measure);
+
+/// Errors (machine): something of a part could not be stored, without which it cannot be merged.
+void require_stored(const OutputFolder& scratch);
 
 /// Measures one part of all experiments together and stores it in `finished`. Images are below `output` until they are
 /// stored.

@@ -273,12 +273,13 @@ void run_cost(const CostArguments& arguments) {
   display.finish();
   sign(report.tool, report.backend);
   if (!arguments.output.empty()) {
-    const auto path = write_whole(arguments.output, [&](OutputFolder& folder) {
-                        write_cost(report, folder.path());
-                        keep(folder);
-                        return true;
-                      }).second;
+    const auto [made, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
+      write_cost(report, folder.run());
+      keep(folder);
+      return true;
+    });
     write_output(fmt::format("{}\ncosts: {}\n", cost_table(report), (path / "cost.json").string()));
+    throw_first({lost});
   } else {
     write_output(cost_table(report));
   }

@@ -300,12 +300,17 @@ void run_ndf(const NdfArguments& arguments) {
   settings.footprint = footprint_of(arguments, source.material);
 
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [results, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+  warn_without_captions();
+  const auto [results, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     std::filesystem::create_directories(folder.path() / "images");
-    NdfResults measured = inspect_ndf(source, settings, folder.path(), display.callback());
+    NdfResults measured = inspect_ndf(source, settings, folder.run(), display.callback());
     measured.tool.version = FOOTPRINT_VERSION;
-    write_file_atomically(folder.path() / "ndf.json", ndf_json(measured));
-    write_file_atomically(folder.path() / "index.html", ndf_page(measured));
+    folder.run().write_document("ndf.json", ndf_json(measured));
+    folder.run().write_text("index.html", [&] {
+      NdfResults shown = measured;
+      if (std::string text = folder.run().losses_text(); !text.empty()) shown.notes.push_back(std::move(text));
+      return ndf_page(shown);
+    });
     keep(folder);
     return measured;
   });
@@ -318,6 +323,7 @@ void run_ndf(const NdfArguments& arguments) {
         results.lobe.narrowest, results.truth.energy, results.truth.expected_energy));
   }
   write_output(fmt::format("{}\nimages: {}\n", ndf_table(results), (path / results.pictures.strip).string()));
+  throw_first({lost});
 }
 
 }  // namespace

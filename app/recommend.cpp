@@ -99,9 +99,10 @@ void set_max_cost(const std::string& text, RecommendSettings& settings) {
   settings.run.gpus = {settings.limits.gpu};
 }
 
-void write_answer(const Recommendation& answer, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "recommend.json", recommendation_json(answer));
-  write_file_atomically(folder / "index.html", recommendation_page(answer));
+void write_answer(Recommendation answer, const RunFolder& folder) {
+  folder.write_document("recommend.json", recommendation_json(answer));
+  if (std::string lost = folder.losses_text(); !lost.empty()) answer.scene.warnings.push_back(std::move(lost));
+  folder.write_text("index.html", [&] { return recommendation_page(answer); });
 }
 
 // The GPU of predicted costs where no limit names one.
@@ -127,32 +128,34 @@ void run_recommend_command(const RecommendArguments& arguments) {
                              .gpu_compiler = amd_compiler()};
   set_max_cost(arguments.max_cost, settings);
   if (arguments.predicted) return run_quick_command(arguments, settings);
+  warn_without_captions();
   ProgressDisplay display(progress_style(arguments.quiet));
   const FinishedWork finished = finished_work_of(settings.run, arguments.output, arguments.fresh);
-  const auto [result, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
+  const auto [result, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{
         .results =
-            [](Results& results, const std::filesystem::path& own) {
+            [](Results& results, const RunFolder& own) {
               sign(results.tool, results.backend);
               write_report(results, own);
             },
         .first_answer =
             [&](const Recommendation& answer) {
-              write_answer(answer, folder.path());
+              write_answer(answer, folder.run());
               display.finish();
               write_output(recommendation_text(answer) + "\n");
               if (!arguments.quiet)
                 write_message(fmt::format("page of the first answer, until the run ends: {}",
                                           (folder.path() / "index.html").string()));
             }};
-    Recommendation made = run_recommend(settings, folder.path(), finished, listener, display.callback());
-    write_answer(made, folder.path());
+    Recommendation made = run_recommend(settings, folder.run(), finished, listener, display.callback());
+    write_answer(made, folder.run());
     keep(folder);
     return made;
   });
   display.finish();
   write_output(fmt::format("{}\npage: {}\n", recommendation_text(result), (path / "index.html").string()));
   write_reuse(finished, arguments.quiet);
+  throw_first({lost});
 }
 
 }  // namespace

@@ -129,13 +129,14 @@ EditSettings settings_from(const EditArguments& arguments) {
 void run_edit_command(const EditArguments& arguments) {
   const EditSettings settings = settings_from(arguments);
   ProgressDisplay display(progress_style(arguments.quiet));
-  const auto [run, path] = write_whole(arguments.output, [&](OutputFolder& folder) {
-    EditRun edits = run_edit(settings, folder.path(), display.callback());
+  const auto [run, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
+    EditRun edits = run_edit(settings, folder.run(), display.callback());
     keep_results(edits, folder, write_edit, "edit.json");
     return edits;
   });
   display.finish();
   write_output(fmt::format("{}\nframes: {}\n", edit_table(run), (path / "images").string()));
+  throw_first({lost});
 }
 
 }  // namespace

@@ -113,6 +113,7 @@ void take_times(const ExperimentArguments& arguments) {
 // Runs the experiment, or each of its members into a folder of its own, and prints the tables.
 std::optional<Error> run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const RequestedExperiments experiments = requested(arguments);
+  warn_without_captions();
   const FinishedWork finished = finished_work_of(experiments.first().run, arguments.output, arguments.fresh);
   std::optional<Error> failed = run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
   write_reuse(finished, arguments.quiet);
@@ -332,7 +333,7 @@ void take_all(const std::vector<Part>& parts, const FinishedWork& finished) {
 void merge_animation(const std::vector<Part>& parts, const std::string& output) {
   const FinishedWork finished(finished_work_folder(output), parts.front().file.maker, true);
   take_all(parts, finished);
-  write_and_print_animation(output, [&](const fs::path& folder) {
+  write_and_print_animation(output, [&](const RunFolder& folder) {
     return joined_animation(finished, parts.front().file.fingerprint, folder);
   });
 }

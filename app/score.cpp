@@ -250,20 +250,23 @@ std::string scores_table(const Scores& scores) {
                                                : " (noise unknown: give --standard-error).");
 }
 
-void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
+void write_pictures(const RunFolder& folder, const Scores& scores) {
+  const auto write = [&](const std::string& file, const auto& picture) {
+    folder.attempt(file, [&] { write_png(folder / file, picture()); });
+  };
   for (std::size_t i = 0; i < scores.pictures.size(); ++i) {
     const PictureScore& score = scores.pictures[i];
-    write_png(folder / fmt::format("ldr_flip_{}.png", i + 1), false_color(score.ldr_map, 1.0F));
+    write(fmt::format("ldr_flip_{}.png", i + 1), [&] { return false_color(score.ldr_map, 1.0F); });
     if (!score.hdr_map.empty())
-      write_png(folder / fmt::format("hdr_flip_{}.png", i + 1), false_color(score.hdr_map, 1.0F));
+      write(fmt::format("hdr_flip_{}.png", i + 1), [&] { return false_color(score.hdr_map, 1.0F); });
   }
-  if (scores.pair) write_png(folder / "closer.png", verdict_picture(scores.pair->verdicts, scores.pair->object));
+  if (scores.pair) write("closer.png", [&] { return verdict_picture(scores.pair->verdicts, scores.pair->object); });
 }
 
-PageImage page_image(const fs::path& folder, const std::string& name, const std::string& stem, const Image& radiance,
+PageImage page_image(const RunFolder& folder, const std::string& name, const std::string& stem, const Image& radiance,
                      float exposure) {
-  write_png(folder / (stem + ".png"), to_display(radiance, exposure));
-  write_pixel_script(folder / (stem + "_values.js"), radiance);
+  folder.attempt(stem, [&] { write_png(folder / (stem + ".png"), to_display(radiance, exposure)); });
+  folder.attempt(stem, [&] { write_pixel_script(folder / (stem + "_values.js"), radiance); });
   return {.name = name, .png = stem + ".png", .values = stem + "_values.js"};
 }
 
@@ -275,7 +278,7 @@ std::string answer_of(const Scores& scores) {
                      scores.pictures.size() > 1 ? "has the least error," : "has error", error(best), scores.reference);
 }
 
-void write_page(const fs::path& folder, const Scores& scores) {
+void write_page(const RunFolder& folder, const Scores& scores) {
   PageView view{.label = "image",
                 .images = {page_image(folder, "reference", "reference", scores.radiance.front(), scores.exposure)}};
   for (std::size_t i = 0; i < scores.pictures.size(); ++i) {
@@ -284,6 +287,8 @@ void write_page(const fs::path& folder, const Scores& scores) {
     view.images.back().flip = fmt::format("ldr_flip_{}.png", i + 1);
     view.images.back().caption = fmt::format("error {:.4g}", scores.pictures[i].error.normalized_color);
   }
+  std::vector<Provenance> provenance{{"Version", fmt::format("footprint {}", FOOTPRINT_VERSION)}};
+  if (std::string lost = folder.losses_text(); !lost.empty()) provenance.push_back({"Warning", std::move(lost)});
   const Page page{.title = "Scores against " + scores.reference,
                   .eyebrow = "images against a reference",
                   .lede = fmt::format("{} pixels, exposure {:.4g}.", scores.pixels, scores.exposure),
@@ -292,8 +297,8 @@ void write_page(const fs::path& folder, const Scores& scores) {
                   .views = {std::move(view)},
                   .exposure = scores.exposure,
                   .sections = {{.heading = "Measures", .table = table_of(scores)}},
-                  .provenance = {{"Version", fmt::format("footprint {}", FOOTPRINT_VERSION)}}};
-  write_file_atomically(folder / "index.html", page_html(page));
+                  .provenance = std::move(provenance)};
+  folder.write_text("index.html", [&] { return page_html(page); });
 }
 
 // The images of a folder that have a known format, by their paths in it.
@@ -348,9 +353,10 @@ void write_scores(const ScoreArguments& arguments, std::span<const Scores> all, 
     const fs::path part =
         all.size() == 1 ? fs::path() : fs::path(scores.reference).lexically_relative(arguments.reference);
     fs::create_directories(out.path() / part);
-    write_file_atomically(out.path() / part / "score.json", json_text(scores_json(arguments, scores), 2));
-    write_pictures(out.path() / part, scores);
-    write_page(out.path() / part, scores);
+    const RunFolder folder = out.run().below(part);
+    folder.write_document("score.json", json_text(scores_json(arguments, scores), 2));
+    write_pictures(folder, scores);
+    write_page(folder, scores);
   }
   out.commit();
 }
@@ -361,6 +367,7 @@ void run_score(const ScoreArguments& arguments) {
   std::vector<Scores> all;
   std::vector<CheckOutcome> outcomes;
   std::string text;
+  std::optional<Error> lost;
   for (const ScoreArguments& one : wanted_scores(arguments)) {
     all.push_back(take_scores(one));
     text += scores_text(all.back());
@@ -368,16 +375,18 @@ void run_score(const ScoreArguments& arguments) {
       std::ranges::move(limit_outcomes(limits, score), std::back_inserter(outcomes));
   }
   if (!arguments.output.empty()) {
-    const auto [made, folder] = write_whole(arguments.output, [&](OutputFolder& out) {
+    const auto [made, folder, losses] = write_whole(arguments.output, [&](OutputFolder& out) {
       write_scores(arguments, all, out);
       return true;
     });
     text += fmt::format("\nscore: {}\n", (folder / (all.size() == 1 ? "score.json" : "")).string());
+    lost = losses;
   }
   write_output(text);
   if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(outcomes));
   if (arguments.github) write_output(github_annotations(outcomes));
   require_none_failed("score", "limits", shortfalls_of(outcomes));
+  throw_first({lost});
 }
 
 }  // namespace

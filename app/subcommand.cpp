@@ -8,6 +8,7 @@
 #include "app/folders.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/process.hpp"
+#include "renderer/image/false_color.hpp"
 
 namespace footprint {
 namespace {
@@ -69,6 +70,28 @@ Error at_final_place(const Error& error, const OutputFolder& folder) {
   return {error.kind(), std::move(place), error.message(), error.hint()};
 }
 
+std::optional<Error> losses_of(const OutputFolder& folder) {
+  const std::vector<Error>& losses = folder.run().losses();
+  if (losses.empty()) return {};
+  const Error first = at_final_place(losses.front(), folder);
+  const std::string more = losses.size() == 1 ? "" : fmt::format(" ({} files were not written)", losses.size());
+  return Error(ErrorKind::check, first.place(), fmt::format("{}; everything else is there{}", first.message(), more),
+               first.hint());
+}
+
+void warn_without_captions() {
+  if (!find_caption_font().empty()) return;
+  write_message(
+      "warning: pictures get no captions: the font DejaVu Sans was not found (install the package fonts-dejavu-core, "
+      "or "
+      "set FOOTPRINT_FONT to its file)");
+}
+
+void throw_first(std::initializer_list<std::optional<Error>> errors) {
+  for (const std::optional<Error>& error : errors)
+    if (error) throw *error;
+}
+
 std::filesystem::path image_path(const std::string& output, const std::string& hint) {
   std::filesystem::path path = output;
   if (path.extension() == ".exr" || path.extension() == ".png") return path;
@@ -92,14 +115,15 @@ void print_results(const Results& results, const std::filesystem::path& folder, 
 }
 
 void write_and_print_animation(const std::filesystem::path& output,
-                               const std::function<Results(const std::filesystem::path& folder)>& make) {
-  const auto [animation, path] = write_whole(output, [&](OutputFolder& folder) {
-    Results made = make(folder.path());
+                               const std::function<Results(const RunFolder& folder)>& make) {
+  const auto [animation, path, lost] = write_whole(output, [&](OutputFolder& folder) {
+    Results made = make(folder.run());
     keep_results(made, folder, write_report);
     return made;
   });
   write_output(fmt::format("{}\nframes: {}\npage: {}\n", results_table(animation), (path / "images").string(),
                            (path / "index.html").string()));
+  throw_first({lost});
 }
 
 std::optional<Error> row_failures(const Results& results) {

@@ -117,6 +117,16 @@ class MapOptions {
 /// The error of a hidden file, with the path that the file will have at its place.
 [[nodiscard]] Error at_final_place(const Error& error, const OutputFolder& folder);
 
+/// The error (check) for files of the folder that could not be written, to be thrown once everything else is written
+/// and printed; none if all were.
+[[nodiscard]] std::optional<Error> losses_of(const OutputFolder& folder);
+
+/// Throws the first error that there is.
+void throw_first(std::initializer_list<std::optional<Error>> errors);
+
+/// Writes a message where no font is there for captions; for commands that caption pictures, before they run.
+void warn_without_captions();
+
 /// The path of an output image. Errors (usage): the extension is neither .exr nor .png, with `hint`.
 [[nodiscard]] std::filesystem::path image_path(const std::string& output, const std::string& hint);
 
@@ -130,9 +140,9 @@ void keep(OutputFolder& folder);
 void print_results(const Results& results, const std::filesystem::path& folder, bool verbose = false);
 
 /// Lets `make` fill a folder out of sight, writes the report of the animation that it returns, moves all of it to
-/// `output` and prints the table. Errors: those of `make`; nothing is left of the folder then.
+/// `output` and prints the table. Errors: those of `make`, and nothing is left of the folder then; (check) losses.
 void write_and_print_animation(const std::filesystem::path& output,
-                               const std::function<Results(const std::filesystem::path& folder)>& make);
+                               const std::function<Results(const RunFolder& folder)>& make);
 
 /// The error (check) for a run in which rows failed or lack an estimate for a GPU, to be thrown once everything else is
 /// written; none if all passed.
@@ -141,14 +151,21 @@ void write_and_print_animation(const std::filesystem::path& output,
 /// Prints a line per failure of a check. Errors (check): there is one; `checks` says what failed.
 void require_none_failed(const std::string& place, const char* checks, const std::vector<std::string>& failures);
 
-/// The result of `write`, which fills and commits the folder, and the folder's place. Removes a folder that was not
-/// committed.
+/// What write_whole made.
+template <typename Made>
+struct Written {
+  Made made;
+  std::filesystem::path folder;  ///< its final place
+  std::optional<Error> lost;     ///< (check) files that could not be written; everything else is there
+};
+
+/// The result of `write`, which fills and commits the folder. Removes a folder that was not committed.
 template <typename Write>
 auto write_whole(const std::filesystem::path& output, Write write) {
   OutputFolder folder(output);
   try {
     auto made = write(folder);
-    return std::pair(std::move(made), folder.final_path());
+    return Written<decltype(made)>{std::move(made), folder.final_path(), losses_of(folder)};
   } catch (const Error& error) {
     throw at_final_place(error, folder);
   }
@@ -160,7 +177,7 @@ template <typename Measured, typename Write>
 void keep_results(Measured& results, OutputFolder& folder, Write write, const char* document = "results.json") {
   sign(results.tool, results.backend);
   if constexpr (requires { results.files; }) results.files = files_below(folder.path(), "images");
-  write(results, folder.path());
+  write(results, folder.run());
   folder.replaces(listed_files(folder.final_path() / document));
   keep(folder);
 }

@@ -20,6 +20,7 @@ endfunction()
 
 if(FOOTPRINT_PRECOMPILE)
   footprint_precompile(footprint_precompiled OPTIONS ${FOOTPRINT_PRECOMPILED_OPTIONS})
+  footprint_precompile(footprint_precompiled_fast OPTIONS ${FOOTPRINT_FAST_OPTIONS} ${FOOTPRINT_PRECOMPILED_OPTIONS})
   if(FOOTPRINT_TESTS)
     footprint_precompile(footprint_precompiled_tests OPTIONS ${FOOTPRINT_TEST_OPTIONS} ${FOOTPRINT_PRECOMPILED_OPTIONS}
                          HEADERS <gtest/gtest.h> LIBRARIES GTest::gtest)

@@ -74,7 +74,7 @@ struct Composer {
   const FigureLayout& layout;
   const Experiment& experiment;
   const Results& results;
-  const std::filesystem::path& folder;
+  const RunFolder& folder;
 
   [[nodiscard]] std::vector<std::string> write() const {
     std::vector<Image> rows, error_rows;
@@ -146,7 +146,7 @@ Image with_inset(const Image& picture, const Crop& inset, double share) {
 }
 
 std::vector<std::string> write_figures(const FigureLayout& layout, const Experiment& experiment, const Results& results,
-                                       const std::filesystem::path& folder) {
+                                       const RunFolder& folder) {
   if (layout.rows.empty()) return {};
   return Composer{layout, experiment, results, folder}.write();
 }

@@ -162,12 +162,12 @@ constexpr int quick_default = 128;  // pixels per side where the experiment give
 
 // Looks into one footprint, in a folder ndf/NAME of its own.
 std::vector<FootprintNdf> inspected(const Experiment& experiment, const NdfSource& source,
-                                    const NamedFootprint& footprint, const std::filesystem::path& folder,
+                                    const NamedFootprint& footprint, const RunFolder& folder,
                                     const Progress& progress) {
   const std::string subfolder = "ndf/" + footprint.name;
   std::filesystem::create_directories(folder / subfolder / "images");
   const NdfSettings wanted{.run = experiment.run, .footprint = footprint.rect};
-  const NdfResults found = inspect_ndf(source, wanted, folder / subfolder, progress);
+  const NdfResults found = inspect_ndf(source, wanted, folder.below(subfolder), progress);
   std::vector<FootprintNdf> figures;
   for (const auto& [method, record] : found.methods) {
     figures.push_back({.footprint = footprint.name,
@@ -235,7 +235,7 @@ std::vector<QuantityFigure> measure_quantities(const Experiment& experiment, con
   return figures;
 }
 
-FurtherFigures measured_figures(const Experiment& experiment, const Scene& scene, const std::filesystem::path& folder,
+FurtherFigures measured_figures(const Experiment& experiment, const Scene& scene, const RunFolder& folder,
                                 const Progress& progress) {
   FurtherFigures figures;
   ProgressParts parts(progress, static_cast<double>(experiment.footprints.size() + 1));
@@ -250,8 +250,8 @@ FurtherFigures measured_figures(const Experiment& experiment, const Scene& scene
 }
 
 // NDFs and quantities, measured or read back. Errors (usage): they are not finished, and must be.
-FurtherFigures further_figures(const Experiment& experiment, const std::filesystem::path& folder,
-                               const Progress& progress, const FinishedWork* finished) {
+FurtherFigures further_figures(const Experiment& experiment, const RunFolder& folder, const Progress& progress,
+                               const FinishedWork* finished) {
   const RunSettings& run = experiment.run;
   const Scene scene = load_scene(run.scene, run.scene_library, run.overrides);
   if (finished == nullptr) return measured_figures(experiment, scene, folder, progress);
@@ -260,7 +260,7 @@ FurtherFigures further_figures(const Experiment& experiment, const std::filesyst
   if (auto known = finished->find<FurtherFigures>(key, folder)) return std::move(*known);
   finished->require_more_allowed(run.scene);
   FurtherFigures figures = measured_figures(experiment, scene, folder, progress);
-  finished->store(key, figures, folder, files_below(folder, "ndf"));
+  folder.attempt(key, [&] { finished->store(key, figures, folder.path(), files_below(folder.path(), "ndf")); });
   return figures;
 }
 
@@ -356,7 +356,7 @@ void make_quick(Experiment& experiment) {
   run.overrides.most_texels = quick_texels;
 }
 
-Results run_experiment(const Experiment& experiment, const std::filesystem::path& folder, const Progress& progress,
+Results run_experiment(const Experiment& experiment, const RunFolder& folder, const Progress& progress,
                        const CompareContext& context) {
   ProgressParts parts(progress, has_further_figures(experiment) ? 6 : 4);
   Results results = run_compare(experiment.run, folder, parts.next(4, ""), context);
@@ -368,7 +368,8 @@ Results run_experiment(const Experiment& experiment, const std::filesystem::path
   }
   results.experiment = judge(experiment, std::span(&results, 1));
   results.experiment->quick = experiment.quick;
-  results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder);
+  folder.attempt("images/figure.png",
+                 [&] { results.experiment->pictures = write_figures(experiment.figure, experiment, results, folder); });
   std::ranges::copy(ndf_pictures(results), std::back_inserter(results.experiment->pictures));
   return results;
 }
@@ -384,7 +385,7 @@ std::vector<WorkUnit> work_units(const Experiment& experiment) {
   return units;
 }
 
-void measure_unit(const WorkUnit& unit, const std::filesystem::path& folder, const Progress& progress,
+void measure_unit(const WorkUnit& unit, const RunFolder& folder, const Progress& progress,
                   const CompareContext& context) {
   if (!unit.distances.empty()) {
     measure_views(unit.experiment->run, unit.distances, folder, progress, context);

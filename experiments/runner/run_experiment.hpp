@@ -48,8 +48,8 @@ void make_quick(Experiment& experiment);
 /// Runs an experiment, judges its claims and writes its images into FOLDER/images.
 /// context: as run_compare takes it.
 /// Errors: those of run_compare, and of composed figures.
-[[nodiscard]] Results run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
-                                     const Progress& progress, const CompareContext& context);
+[[nodiscard]] Results run_experiment(const Experiment& experiment, const RunFolder& folder, const Progress& progress,
+                                     const CompareContext& context);
 
 /// A part of an experiment that one process can measure alone.
 struct WorkUnit {
@@ -63,7 +63,7 @@ struct WorkUnit {
 /// Measures a part and stores it in `context.finished`.
 /// folder: for images until they are stored.
 /// Errors: those of run_experiment.
-void measure_unit(const WorkUnit& unit, const std::filesystem::path& folder, const Progress& progress,
+void measure_unit(const WorkUnit& unit, const RunFolder& folder, const Progress& progress,
                   const CompareContext& context);
 
 /// Reads the run's pictures back from `folder` and writes FOLDER/images/figure.png and, where a method is shown,
@@ -71,7 +71,7 @@ void measure_unit(const WorkUnit& unit, const std::filesystem::path& folder, con
 /// folder; empty for a layout without rows. The run has every frame of the layout (check_against_scenes). Errors
 /// (machine): a picture cannot be read or written.
 [[nodiscard]] std::vector<std::string> write_figures(const FigureLayout& layout, const Experiment& experiment,
-                                                     const Results& results, const std::filesystem::path& folder);
+                                                     const Results& results, const RunFolder& folder);
 
 /// The part of a picture that `crop` leaves: whole pixels, one at least.
 [[nodiscard]] Image cropped(const Image& picture, const Crop& crop);

@@ -30,7 +30,7 @@ double weight_of_methods(const RunSettings& settings) {
 
 // Everything that renders, created with the first image.
 struct Workbench {
-  Workbench(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const std::filesystem::path& folder,
+  Workbench(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const RunFolder& folder,
             const Progress& staging, ProgressParts& progress, SharedReferences* shared, const GpuCompiler& compiler)
       : stage(std::move(scene), settings, staging,
               {.has_unit = !is_animation(settings), .records_refusals = !is_animation(settings)}),
@@ -49,7 +49,7 @@ struct Workbench {
 
 // A run's inputs, and its workbench once something is rendered.
 struct Job {
-  Job(const RunSettings& of, std::filesystem::path into, const Progress& all, const CompareContext& with)
+  Job(const RunSettings& of, RunFolder into, const Progress& all, const CompareContext& with)
       : settings(of),
         folder(std::move(into)),
         context(with),
@@ -88,7 +88,8 @@ struct Job {
   }
   template <class T>
   void store(const std::string& part, const T& value, const std::vector<std::string>& files = {}) const {
-    if (context.finished != nullptr) context.finished->store(run + "/" + part, value, folder, files);
+    if (context.finished == nullptr) return;
+    folder.attempt(part, [&] { context.finished->store(run + "/" + part, value, folder.path(), files); });
   }
 
   // The times that other processes took in a view; they take those of all views at once.
@@ -110,7 +111,7 @@ struct Job {
   }
 
   const RunSettings& settings;
-  std::filesystem::path folder;
+  RunFolder folder;
   const CompareContext& context;
   ProgressParts whole;
   Progress staging;
@@ -415,13 +416,13 @@ ComparisonHead head_of(Job& job) {
 
 FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
   const CompareContext context;
-  Job job(settings, {}, progress, context);
+  Job job(settings, std::filesystem::path(), progress, context);
   FrameTimes all;
   for (std::size_t i = 0; i < job.views.size(); ++i) all.push_back(time_view(job, i));
   return all;
 }
 
-Results run_compare(const RunSettings& settings, const std::filesystem::path& folder, const Progress& progress,
+Results run_compare(const RunSettings& settings, const RunFolder& folder, const Progress& progress,
                     const CompareContext& context) {
   Job job(settings, folder, progress, context);
   std::filesystem::create_directories(folder / "images");
@@ -441,9 +442,8 @@ Results run_compare(const RunSettings& settings, const std::filesystem::path& fo
   return results_of(head_of(job), done);
 }
 
-std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views,
-                          const std::filesystem::path& folder, const Progress& progress,
-                          const CompareContext& context) {
+std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views, const RunFolder& folder,
+                          const Progress& progress, const CompareContext& context) {
   Job job(settings, folder, progress, context);
   std::filesystem::create_directories(folder / "images");
   Views measured(job);

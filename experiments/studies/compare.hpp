@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -53,16 +52,17 @@ struct CompareContext {
   GpuCompiler gpu_compiler = {};  ///< if the settings have GPUs
 };
 
-/// Runs the comparison or the animation and writes its images into FOLDER/images (created). If all parts are finished,
-/// no OpenGL context is created. The results lack tool and backend.cpu, which the program knows. Errors: of scene,
-/// methods and settings (usage), of the machine, an interrupt through `progress`.
-[[nodiscard]] Results run_compare(const RunSettings& settings, const std::filesystem::path& folder,
-                                  const Progress& progress, const CompareContext& context);
+/// Runs the comparison or the animation and writes its images into FOLDER/images (created). An image that cannot be
+/// written is a loss of the folder. If all parts are finished, no OpenGL context is created. The results lack tool and
+/// backend.cpu, which the program knows. Errors: of scene, methods and settings (usage), of the machine, an interrupt
+/// through `progress`.
+[[nodiscard]] Results run_compare(const RunSettings& settings, const RunFolder& folder, const Progress& progress,
+                                  const CompareContext& context);
 
 /// Measures some views of the run, by their index, and stores them in `context.finished`.
 /// folder: for images until they are stored.
 /// Returns the fingerprint under which they are stored.
-std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views,
-                          const std::filesystem::path& folder, const Progress& progress, const CompareContext& context);
+std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views, const RunFolder& folder,
+                          const Progress& progress, const CompareContext& context);
 
 }  // namespace footprint

@@ -169,7 +169,7 @@ struct EditedDrawing {
 
 class Editor {
  public:
-  Editor(const EditSettings& settings, std::filesystem::path folder, const Progress& progress)
+  Editor(const EditSettings& settings, RunFolder folder, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
         source_(editable_source(settings)),
@@ -277,7 +277,7 @@ class Editor {
   }
 
   const EditSettings& settings_;
-  std::filesystem::path folder_;
+  RunFolder folder_;
   SceneSource source_;
   std::string edited_;
   std::optional<MeasuredPair> tables_;
@@ -404,7 +404,7 @@ std::map<std::string, std::string> values_at(std::span<const ParameterSweep> swe
   return values;
 }
 
-EditRun run_edit(const EditSettings& settings, const std::filesystem::path& folder, const Progress& progress) {
+EditRun run_edit(const EditSettings& settings, const RunFolder& folder, const Progress& progress) {
   return Editor(settings, folder, progress).run();
 }
 

@@ -1,7 +1,6 @@
 // Edits of a scene's small-scale geometry: parameters change every frame, and each stage up to the picture is timed.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/microgeometry/microgeometry.hpp"
 #include "renderer/microgeometry/patch.hpp"
 #include "renderer/scene/scene.hpp"
@@ -49,8 +49,7 @@ struct EditSettings {
 /// they are first used. The result lacks tool and backend.cpu, which the program knows. Errors: of scene, sweeps,
 /// method and settings (usage; also a sweep over small-scale geometry that the scene does not generate), of the
 /// machine, an interrupt through `progress`.
-[[nodiscard]] EditRun run_edit(const EditSettings& settings, const std::filesystem::path& folder,
-                               const Progress& progress);
+[[nodiscard]] EditRun run_edit(const EditSettings& settings, const RunFolder& folder, const Progress& progress);
 
 /// The two tables between which an edit goes.
 struct MeasuredPair {

@@ -140,8 +140,9 @@ Json FinishedWork::read(const std::string& key) const {
   return document;
 }
 
-void FinishedWork::put_files(const std::string& key, const Json& part, const fs::path& output) const {
-  for (const auto& [name, hash] : part["files"].items()) link_or_copy(run_folder(key) / name, output / name);
+void FinishedWork::put_files(const std::string& key, const Json& part, const RunFolder& output) const {
+  for (const auto& entry : part["files"].items())
+    output.attempt(entry.key(), [&] { link_or_copy(run_folder(key) / entry.key(), output / entry.key()); });
 }
 
 void FinishedWork::write(const std::string& key, Json value, const fs::path& output,
@@ -239,7 +240,7 @@ Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>
   return results;
 }
 
-Results joined_animation(const FinishedWork& finished, const std::string& run, const std::filesystem::path& folder) {
+Results joined_animation(const FinishedWork& finished, const std::string& run, const RunFolder& folder) {
   const auto damaged = [&](const std::string& what) {
     return Error(ErrorKind::usage, finished.folder().string(), what + " is missing or damaged",
                  "run the part that has it again");

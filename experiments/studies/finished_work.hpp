@@ -13,6 +13,7 @@
 
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/scene/scene.hpp"
 #include "results/report/json_archive.hpp"
 #include "results/report/record_fields.hpp"
@@ -32,9 +33,9 @@ class FinishedWork {
 
   /// Reads a part and puts its files into `output` under the names that they had.
   /// key: RUN/NAME.
-  /// Returns nothing if the part is not finished. Errors (machine): `output` cannot be written.
+  /// Returns nothing if the part is not finished. A file that cannot be put into `output` is a loss of it.
   template <class T>
-  [[nodiscard]] std::optional<T> find(const std::string& key, const std::filesystem::path& output) const {
+  [[nodiscard]] std::optional<T> find(const std::string& key, const RunFolder& output) const {
     const Json part = read(key);
     if (part.is_null()) return {};
     try {
@@ -44,8 +45,7 @@ class FinishedWork {
       return value;
     } catch (const nlohmann::json::exception&) {
       return {};
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::machine) throw;
+    } catch (const Error&) {
       return {};
     }
   }
@@ -82,7 +82,7 @@ class FinishedWork {
   [[nodiscard]] std::filesystem::path run_folder(const std::string& key) const;
   /// Its value, and its files with their hashes; null: it is not there, or not whole.
   [[nodiscard]] Json read(const std::string& key) const;
-  void put_files(const std::string& key, const Json& part, const std::filesystem::path& output) const;
+  void put_files(const std::string& key, const Json& part, const RunFolder& output) const;
   void write(const std::string& key, Json value, const std::filesystem::path& output,
              const std::vector<std::string>& files) const;
 
@@ -151,7 +151,6 @@ struct ComparisonHead {
 /// backend.cpu.
 /// run: fingerprint of measure_views (compare.hpp).
 /// Errors (usage): a frame is missing or damaged.
-[[nodiscard]] Results joined_animation(const FinishedWork& finished, const std::string& run,
-                                       const std::filesystem::path& folder);
+[[nodiscard]] Results joined_animation(const FinishedWork& finished, const std::string& run, const RunFolder& folder);
 
 }  // namespace footprint

@@ -185,7 +185,7 @@ FlickerCauses flicker_causes(const Image& before, const Image& picture, const Re
   return causes;
 }
 
-std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::span<const Record> records,
+std::vector<MethodPair> compare_pairs(const RunFolder& folder, std::span<const Record> records,
                                       std::span<const Image> images, std::span<const std::string> names,
                                       const ReferenceView& target, float exposure) {
   if (records.size() > most_methods_in_pairs || !target.reference.halves) return {};
@@ -200,7 +200,7 @@ std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder, std::
       if (!shares) continue;
       const std::string file =
           fmt::format("images/{}_or_{}.png", distance_stem(target.at.distance, names[i]), names[j]);
-      write_png(folder / file, verdict_picture(verdicts, object));
+      folder.attempt(file, [&] { write_png(folder / file, verdict_picture(verdicts, object)); });
       pairs.push_back({.distance = target.at.distance,
                        .methods = {records[i].method, records[j].method},
                        .closer = *shares,

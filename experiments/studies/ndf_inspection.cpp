@@ -101,8 +101,8 @@ struct NdfPicture {
 // Writes images/STEM.exr, STEM.png and STEM_values.js for the exact NDF and every method, images/STEM_difference.png
 // for every method, and ndf.png, all of them side by side over the scale, below `folder`; fills in the paths and the
 // scale of `results`, which has the same methods. The scale runs from 0 to the exact NDF's largest density.
-void write_ndf_pictures(const std::filesystem::path& folder, int size, const NdfPicture& exact,
-                        std::span<const NdfPicture> methods, NdfResults& results) {
+void write_ndf_pictures(const RunFolder& folder, int size, const NdfPicture& exact, std::span<const NdfPicture> methods,
+                        NdfResults& results) {
   const float scale = *std::ranges::max_element(exact.densities);
   results.pictures.scale = scale;
   const auto write = [&](const NdfPicture& picture, auto& images) {
@@ -110,9 +110,10 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     images.picture = "images/" + picture.stem + ".png";
     Image shown = colored(size, picture.densities, scale);
     const Image densities = one_channel(size, picture.densities);
-    write_exr(folder / images.density, densities);
-    write_pixel_script(folder / "images" / (picture.stem + "_values.js"), densities);
-    write_png(folder / images.picture, shown);
+    folder.attempt(images.density, [&] { write_exr(folder / images.density, densities); });
+    folder.attempt(picture.stem,
+                   [&] { write_pixel_script(folder / "images" / (picture.stem + "_values.js"), densities); });
+    folder.attempt(images.picture, [&] { write_png(folder / images.picture, shown); });
     return shown;
   };
   Strip densities, errors;
@@ -123,12 +124,14 @@ void write_ndf_pictures(const std::filesystem::path& folder, int size, const Ndf
     densities.add(write(methods[i], images), methods[i].caption);
     images.difference = "images/" + methods[i].stem + "_difference.png";
     errors.add(colored(size, differences(methods[i].densities, exact.densities), scale), methods[i].caption);
-    write_png(folder / images.difference, errors.pictures.back());
+    folder.attempt(images.difference, [&] { write_png(folder / images.difference, errors.pictures.back()); });
   }
-  const Image strip = stacked(densities.drawn(), errors.drawn());
-  const Image legend = false_color_legend(strip.width, std::max(24, size / 12), scale);
   results.pictures.strip = "ndf.png";
-  write_png(folder / results.pictures.strip, stacked(strip, legend));
+  folder.attempt(results.pictures.strip, [&] {
+    const Image strip = stacked(densities.drawn(), errors.drawn());
+    const Image legend = false_color_legend(strip.width, std::max(24, size / 12), scale);
+    write_png(folder / results.pictures.strip, stacked(strip, legend));
+  });
 }
 
 // Pictures are of facets merged within this part of the narrowest lobe's width: within 1e-3 of a lobe's peak.
@@ -309,7 +312,7 @@ NdfSource load_ndf_source(const NormalFile& map, const std::string& material, co
   return source;
 }
 
-NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const std::filesystem::path& folder,
+NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const RunFolder& folder,
                        const Progress& progress) {
   check_footprint(settings.footprint, "--region");
   const std::vector<MethodSpec> methods = settings.run.methods.empty() ? every_method() : settings.run.methods;

@@ -7,6 +7,7 @@
 
 #include "experiments/settings/run_settings.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/ndf/footprint_texels.hpp"
 #include "renderer/scene/material.hpp"
 #include "renderer/scene/settings/part.hpp"
@@ -42,7 +43,7 @@ struct NdfSettings {
 
 /// Takes the figures, and writes ndf.png and images/ below `folder`. Errors (usage): an empty footprint, no normal
 /// under it, a named method that refuses the material; (machine): no GL, memory; (interrupted) by `progress`.
-[[nodiscard]] NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings,
-                                     const std::filesystem::path& folder, const Progress& progress);
+[[nodiscard]] NdfResults inspect_ndf(const NdfSource& source, const NdfSettings& settings, const RunFolder& folder,
+                                     const Progress& progress);
 
 }  // namespace footprint

@@ -23,12 +23,12 @@ namespace {
 constexpr double scale_quantile = 0.99;
 constexpr double smallest_error_scale = 0.01;
 
-Image read_back(const std::filesystem::path& folder, const std::string& file) {
+Image read_back(const RunFolder& folder, const std::string& file) {
   return read_image(folder / file, Transfer::linear);
 }
 
 // The reference without the pixels that no figure includes.
-Image counted_reference(const std::filesystem::path& folder, const DistanceResult& result) {
+Image counted_reference(const RunFolder& folder, const DistanceResult& result) {
   Image reference = read_back(folder, result.reference);
   Image mask(reference.width, reference.height, 1);
   for (const std::uint32_t pixel : result.unresolved) {
@@ -46,11 +46,32 @@ Image seen(const Image& radiance, float exposure) {
   return image;
 }
 
-std::string error_file(const std::filesystem::path& folder, const Record& record, const std::string& end,
-                       const Image& error, double top) {
-  const std::string stem = std::filesystem::path(record.images.color).stem().string() + end;
-  write_png(folder / "images" / (stem + ".png"), false_color(error, static_cast<float>(top)));
-  return "images/" + stem + ".png";
+std::string error_file(const RunFolder& folder, const Record& record, const std::string& end, const Image& error,
+                       double top) {
+  const std::string file =
+      fmt::format("images/{}{}.png", std::filesystem::path(record.images.color).stem().string(), end);
+  folder.attempt(file, [&] { write_png(folder / file, false_color(error, static_cast<float>(top))); });
+  return file;
+}
+
+// The image of a method, as it was written; empty if it was lost.
+Image picture_of(const RunFolder& folder, const Record& record) {
+  Image picture;
+  folder.attempt(record.images.color, [&] { picture = read_back(folder, record.images.color); });
+  return picture;
+}
+
+// The images beside each other, and their errors over the legend of the scale.
+void write_strips(const RunFolder& folder, const std::string& stem, const Strip& pictures, const Strip& errors,
+                  double top) {
+  const std::string file = "images/" + stem;
+  folder.attempt(file, [&] { write_png(folder / (file + ".png"), pictures.drawn()); });
+  if (errors.pictures.empty()) return;  // no method could be drawn
+  folder.attempt(file, [&] {
+    const Image strip = errors.drawn();
+    const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), static_cast<float>(top));
+    write_png(folder / (file + "_errors.png"), stacked(strip, legend));
+  });
 }
 
 }  // namespace
@@ -86,16 +107,17 @@ std::string distance_stem(double distance, const std::string& what) {
   return fmt::format("d{}_{}", file_stem(fmt::format("{}", distance)), what);
 }
 
-std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
-                          float exposure) {
-  write_exr(folder / "images" / (stem + ".exr"), radiance);
-  write_png(folder / "images" / (stem + ".png"), to_display(radiance, exposure));
-  return "images/" + stem + ".exr";
+std::string write_picture(const RunFolder& folder, const std::string& stem, const Image& radiance, float exposure) {
+  const std::string file = "images/" + stem;
+  folder.attempt(file, [&] { write_exr(folder / (file + ".exr"), radiance); });
+  folder.attempt(file, [&] { write_png(folder / (file + ".png"), to_display(radiance, exposure)); });
+  return file + ".exr";
 }
 
-std::string write_page_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
-                               float exposure, const Image& left_out) {
-  write_pixel_script(folder / "images" / (stem + "_values.js"), radiance, left_out);
+std::string write_page_picture(const RunFolder& folder, const std::string& stem, const Image& radiance, float exposure,
+                               const Image& left_out) {
+  const std::string file = fmt::format("images/{}_values.js", stem);
+  folder.attempt(file, [&] { write_pixel_script(folder / file, radiance, left_out); });
   return write_picture(folder, stem, radiance, exposure);
 }
 
@@ -104,7 +126,7 @@ std::vector<std::string> page_picture_files(const std::string& exr) {
   return {exr, stem + ".png", stem + "_values.js"};
 }
 
-std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask) {
+std::string write_mask(const RunFolder& folder, const std::string& stem, const Image& mask) {
   Image picture(mask.width, mask.height, 4, 1.0F);
   for (std::size_t i = 0; i < mask.texels.size(); ++i)
     std::fill_n(picture.texels.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, mask.texels[i]);
@@ -124,38 +146,40 @@ double error_scale(double largest, const std::optional<double>& given) {
   return std::ceil(scale / step) * step;
 }
 
-void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top) {
-  const Image reference = counted_reference(folder, result);
-  const Image seen_reference = seen(read_back(folder, result.reference), result.exposure.factor);
-  Strip pictures, errors;
-  pictures.add(to_display(read_back(folder, result.reference), result.exposure.factor),
-               fmt::format("reference, {:.0f} spp", result.work.samples));
-  for (Record& record : result.records) {
-    if (record.failure) continue;
-    const Image picture = read_back(folder, record.images.color);
-    const Image error = error_map(picture, reference, result.exposure.factor);
-    record.images.error = error_file(folder, record, "_error", error, top);
-    record.images.error_shared = record.images.error;
-    const Image flip = ldr_flip(seen(picture, result.exposure.factor), seen_reference);
-    record.images.flip = error_file(folder, record, "_flip", flip, 1.0);
-    pictures.add(to_display(picture, result.exposure.factor), record.method);
-    errors.add(false_color(error, static_cast<float>(top)), record.method);
-  }
-  const std::string stem = distance_stem(result.distance, "all");
-  write_png(folder / "images" / (stem + ".png"), pictures.drawn());
-  if (errors.pictures.empty()) return;  // no method could be drawn
-  const Image strip = errors.drawn();
-  const Image legend = false_color_legend(strip.width, std::max(24, strip.height / 12), static_cast<float>(top));
-  write_png(folder / "images" / (stem + "_errors.png"), stacked(strip, legend));
+void write_error_images(const RunFolder& folder, DistanceResult& result, double top) {
+  folder.attempt(result.reference, [&] {
+    const Image reference = counted_reference(folder, result);
+    const Image whole = read_back(folder, result.reference);
+    const Image seen_reference = seen(whole, result.exposure.factor);
+    Strip pictures, errors;
+    pictures.add(to_display(whole, result.exposure.factor), fmt::format("reference, {:.0f} spp", result.work.samples));
+    for (Record& record : result.records) {
+      if (record.failure) continue;
+      const Image picture = picture_of(folder, record);
+      if (picture.empty()) continue;
+      const Image error = error_map(picture, reference, result.exposure.factor);
+      record.images.error = error_file(folder, record, "_error", error, top);
+      record.images.error_shared = record.images.error;
+      const Image flip = ldr_flip(seen(picture, result.exposure.factor), seen_reference);
+      record.images.flip = error_file(folder, record, "_flip", flip, 1.0);
+      pictures.add(to_display(picture, result.exposure.factor), record.method);
+      errors.add(false_color(error, static_cast<float>(top)), record.method);
+    }
+    write_strips(folder, distance_stem(result.distance, "all"), pictures, errors, top);
+  });
 }
 
-void write_shared_error_images(const std::filesystem::path& folder, DistanceResult& result, double top) {
-  const Image reference = counted_reference(folder, result);
-  for (Record& record : result.records) {
-    if (record.failure) continue;
-    const Image error = error_map(read_back(folder, record.images.color), reference, result.exposure.factor);
-    record.images.error_shared = error_file(folder, record, "_error_shared", error, top);
-  }
+void write_shared_error_images(const RunFolder& folder, DistanceResult& result, double top) {
+  folder.attempt(result.reference, [&] {
+    const Image reference = counted_reference(folder, result);
+    for (Record& record : result.records) {
+      if (record.failure) continue;
+      const Image picture = picture_of(folder, record);
+      if (picture.empty()) continue;
+      record.images.error_shared =
+          error_file(folder, record, "_error_shared", error_map(picture, reference, result.exposure.factor), top);
+    }
+  });
 }
 
 }  // namespace footprint

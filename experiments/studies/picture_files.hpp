@@ -1,14 +1,15 @@
 // The pictures of a run as files: what they are called and how they are written. Error images are made from the images
-// that were written, on the scale of each distance and on the scale that all distances share.
+// that were written, on the scale of each distance and on the scale that all distances share. A picture that cannot be
+// written is a loss of the run's folder, not an error.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "renderer/core/options.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/image/image.hpp"
 
 namespace footprint {
@@ -40,19 +41,18 @@ struct Strip {
 
 /// Writes FOLDER/images/STEM.exr (linear radiance, coverage in alpha) and STEM.png beside it (exposed, sRGB); returns
 /// "images/STEM.exr".
-std::string write_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
-                          float exposure);
+std::string write_picture(const RunFolder& folder, const std::string& stem, const Image& radiance, float exposure);
 
 /// The same, and STEM_values.js beside them, from which the page reads its values.
 /// left_out: a mask of the pixels that no figure includes; empty: there are none.
-std::string write_page_picture(const std::filesystem::path& folder, const std::string& stem, const Image& radiance,
-                               float exposure, const Image& left_out = {});
+std::string write_page_picture(const RunFolder& folder, const std::string& stem, const Image& radiance, float exposure,
+                               const Image& left_out = {});
 
 /// The files that write_page_picture makes of "images/STEM.exr".
 [[nodiscard]] std::vector<std::string> page_picture_files(const std::string& exr);
 
 /// Writes a mask, one channel of 1 and 0, as FOLDER/images/STEM.exr and STEM.png beside it; returns "images/STEM.exr".
-std::string write_mask(const std::filesystem::path& folder, const std::string& stem, const Image& mask);
+std::string write_mask(const RunFolder& folder, const std::string& stem, const Image& mask);
 
 /// The 99th percentile of an error image over the pixels that have an error.
 [[nodiscard]] double error_percentile(const Image& error);
@@ -64,9 +64,9 @@ std::string write_mask(const std::filesystem::path& folder, const std::string& s
 /// Writes strips of all images of a distance and of their errors over the legend of the scale, its maps of FLIP and its
 /// error images on the scale `top`, and names them in the records; the images on the shared scale are the same until
 /// write_shared_error_images. folder: output folder with the images of `result`.
-void write_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
+void write_error_images(const RunFolder& folder, DistanceResult& result, double top);
 
 /// Writes the error images of a distance on the scale `top` that all distances share, and names them in the records.
-void write_shared_error_images(const std::filesystem::path& folder, DistanceResult& result, double top);
+void write_shared_error_images(const RunFolder& folder, DistanceResult& result, double top);
 
 }  // namespace footprint

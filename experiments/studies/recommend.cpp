@@ -212,7 +212,7 @@ MaterialAdvice advice_of(const RecommendSettings& settings, const std::vector<Fi
 
 class Advisor {
  public:
-  Advisor(const RecommendSettings& settings, std::filesystem::path folder, const FinishedWork& finished,
+  Advisor(const RecommendSettings& settings, RunFolder folder, const FinishedWork& finished,
           const RecommendListener& listener, const Progress& progress)
       : settings_(settings),
         folder_(std::move(folder)),
@@ -276,7 +276,7 @@ class Advisor {
   }
 
   // Whether no method under a filter can pass the limit of cost, because a few frames show that even `direct` does not.
-  bool is_too_expensive(const FootprintFilter& filter, const std::filesystem::path& own, const Progress& progress,
+  bool is_too_expensive(const FootprintFilter& filter, const RunFolder& own, const Progress& progress,
                         SharedWork& shared) {
     if (!settings_.limits.max_cost || filter == plain_filter) return false;
     const std::vector<MethodSpec> direct{{.text = "direct", .name = "direct", .options = {}}};
@@ -304,19 +304,19 @@ class Advisor {
       const Progress part = parts.next(1.0, footprint_filter_text(filter) + ", ");
       if (methods[f].empty()) continue;
       FilterRun run{.filter = filter, .folder = file_stem(footprint_filter_text(filter)), .coarse = coarse};
-      const std::filesystem::path own = folder_ / (coarse ? "coarse" : run.folder);
-      std::filesystem::create_directories(own);
+      const RunFolder own = coarse ? RunFolder(folder_ / "coarse") : folder_.below(run.folder);
+      std::filesystem::create_directories(own.path());
       ProgressParts steps(part, 4.0);
       if (coarse && is_too_expensive(filter, own, steps.next(1.0, ""), shared)) {
         methods[f].clear();
-        std::filesystem::remove_all(own);
+        std::filesystem::remove_all(own.path());
         continue;
       }
       run.results =
           run_compare(settings_of(settings_, filter, methods[f], size), own, steps.next(3.0, ""), with(shared));
       leave_out_failed(run.results, methods);
       const bool is_of_use = !methods_of(run.results).empty();
-      if (coarse || !is_of_use) std::filesystem::remove_all(own);
+      if (coarse || !is_of_use) std::filesystem::remove_all(own.path());
       if (!is_of_use) continue;
       if (!coarse) listener_.results(run.results, own);
       runs.push_back(std::move(run));
@@ -394,7 +394,7 @@ class Advisor {
   }
 
   const RecommendSettings& settings_;
-  std::filesystem::path folder_;
+  RunFolder folder_;
   const FinishedWork& finished_;
   const RecommendListener& listener_;
   ProgressParts parts_;
@@ -406,9 +406,8 @@ class Advisor {
 
 }  // namespace
 
-Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
-                             const FinishedWork& finished, const RecommendListener& listener,
-                             const Progress& progress) {
+Recommendation run_recommend(const RecommendSettings& settings, const RunFolder& folder, const FinishedWork& finished,
+                             const RecommendListener& listener, const Progress& progress) {
   return Advisor(settings, folder, finished, listener, progress).run();
 }
 

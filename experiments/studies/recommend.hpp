@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -32,7 +31,7 @@ inline constexpr double coarse_error_share = 0.15, coarse_cost_share = 0.25;
 /// Receives results while it runs.
 struct RecommendListener {
   /// Writes the report of a full run into its folder.
-  std::function<void(Results& results, const std::filesystem::path& folder)> results;
+  std::function<void(Results& results, const RunFolder& folder)> results;
   /// Receives the answer of the coarse pass, before the full one.
   std::function<void(const Recommendation& answer)> first_answer = [](const Recommendation& /*answer*/) {};
 };
@@ -40,7 +39,7 @@ struct RecommendListener {
 /// Compares them. The full runs' pictures and reports go to FOLDER/FILTER, one for each footprint filter that is still
 /// in question.
 /// finished: parts that are in here are not measured, and the others are stored here. Errors: those of run_compare.
-[[nodiscard]] Recommendation run_recommend(const RecommendSettings& settings, const std::filesystem::path& folder,
+[[nodiscard]] Recommendation run_recommend(const RecommendSettings& settings, const RunFolder& folder,
                                            const FinishedWork& finished, const RecommendListener& listener,
                                            const Progress& progress);
 

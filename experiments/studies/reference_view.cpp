@@ -319,7 +319,7 @@ SharedReferences::OfView* SharedReferences::of(const RunView& at) {
   return known != views.end() ? &*known : nullptr;
 }
 
-ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, Stage& stage, std::filesystem::path folder,
+ReferenceRenderer::ReferenceRenderer(const RunSettings& settings, Stage& stage, RunFolder folder,
                                      ProgressParts& progress, SharedReferences* shared)
     : settings_(settings),
       stage_(stage),
@@ -463,7 +463,8 @@ void ReferenceRenderer::write_files(ReferenceView& target) const {
   if (is_animation(settings_)) return;
   target.files.interior = write_mask(folder_, stem_of("interior"), target.parts.interior);
   target.files.standard_error = fmt::format("images/{}_standard_error.exr", stem);
-  write_exr(folder_ / target.files.standard_error, target.reference.standard_error);
+  folder_.attempt(target.files.standard_error,
+                  [&] { write_exr(folder_ / target.files.standard_error, target.reference.standard_error); });
 }
 
 // Every figure is over the pixels that are covered; the warnings say how many are left out.

@@ -190,7 +190,7 @@ class ReferenceRenderer {
  public:
   /// folder: images go to its images/.
   /// shared: references are taken from here and added here; null: every reference is rendered.
-  ReferenceRenderer(const RunSettings& settings, Stage& stage, std::filesystem::path folder, ProgressParts& progress,
+  ReferenceRenderer(const RunSettings& settings, Stage& stage, RunFolder folder, ProgressParts& progress,
                     SharedReferences* shared = nullptr);
 
   /// The share of progress that a view takes.
@@ -224,7 +224,7 @@ class ReferenceRenderer {
 
   const RunSettings& settings_;
   Stage& stage_;
-  std::filesystem::path folder_;
+  RunFolder folder_;
   ProgressParts& progress_;
   float exposure_ = 1.0F;  // of the view that is rendered
   InteriorFinder interior_finder_;
@@ -272,9 +272,8 @@ class MethodMeasurer {
 /// One entry for every two methods of one distance, with its image in FOLDER/images; empty if the reference's noise is
 /// unknown, no pixel is interior, or there are more than 24 methods.
 /// records, images, names: of each method; a failed method has no image. `names` are parts of file names.
-[[nodiscard]] std::vector<MethodPair> compare_pairs(const std::filesystem::path& folder,
-                                                    std::span<const Record> records, std::span<const Image> images,
-                                                    std::span<const std::string> names, const ReferenceView& target,
-                                                    float exposure);
+[[nodiscard]] std::vector<MethodPair> compare_pairs(const RunFolder& folder, std::span<const Record> records,
+                                                    std::span<const Image> images, std::span<const std::string> names,
+                                                    const ReferenceView& target, float exposure);
 
 }  // namespace footprint

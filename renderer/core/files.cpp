@@ -277,7 +277,7 @@ OutputFolder::OutputFolder(const fs::path& final_path) {
 OutputFolder::~OutputFolder() {
   if (committed_) return;
   std::error_code ignored;  // a destructor cannot report it
-  fs::remove_all(staging_, ignored);
+  fs::remove_all(path(), ignored);
   remove_empty_folders(created_parents_);
 }
 
@@ -293,9 +293,9 @@ void OutputFolder::replaces(const std::vector<fs::path>& files) {
 void OutputFolder::commit() {
   try {
     std::error_code status;
-    if (!fs::exists(final_)) fs::rename(staging_, final_, status);
+    if (!fs::exists(final_)) fs::rename(path(), final_, status);
     if (status) throw machine_error(final_, "cannot be put in place", status);
-    if (fs::exists(staging_)) merge_folder(staging_, final_, stale_);
+    if (fs::exists(path())) merge_folder(path(), final_, stale_);
   } catch (const fs::filesystem_error& failure) {
     throw machine_error(final_, "cannot be put in place", failure.code());
   }

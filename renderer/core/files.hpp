@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/core/bytes.hpp"
+#include "renderer/core/run_folder.hpp"
 
 namespace footprint {
 
@@ -40,7 +41,9 @@ class OutputFolder {
   OutputFolder& operator=(OutputFolder&&) = delete;
 
   /// Where to write until the commit.
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return staging_; }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return staging_.path(); }
+  /// The same folder for a run, with its losses.
+  [[nodiscard]] const RunFolder& run() const noexcept { return staging_; }
   /// Where it will be: absolute, normalised.
   [[nodiscard]] const std::filesystem::path& final_path() const noexcept { return final_; }
 
@@ -57,7 +60,8 @@ class OutputFolder {
   void commit();
 
  private:
-  std::filesystem::path final_, staging_;
+  std::filesystem::path final_;
+  RunFolder staging_{std::filesystem::path()};
   std::vector<std::filesystem::path> stale_;            // of the final folder
   std::vector<std::filesystem::path> created_parents_;  // outermost first; removed again without a commit
   bool committed_ = false;

@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <system_error>
 
 #include "renderer/core/error.hpp"
 
@@ -65,9 +69,18 @@ void require_strip(const std::vector<Image>& pictures, const std::vector<std::st
 
 using namespace OIIO::ImageBufAlgo;
 
-Error no_font(const std::string& font) {
-  return {ErrorKind::machine, "captions", fmt::format("the font {} was not found", font),
-          "install the package fonts-dejavu-core"};
+// Where Debian, Fedora and Arch install it.
+constexpr std::array<const char*, 3> font_folders{"/usr/share/fonts/truetype/dejavu",
+                                                  "/usr/share/fonts/dejavu-sans-fonts", "/usr/share/fonts/TTF"};
+
+std::string variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+bool is_file(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
 }
 
 }  // namespace
@@ -118,18 +131,28 @@ Image labelled_strip(const std::vector<Image>& pictures, const std::vector<std::
   return strip;
 }
 
-int text_width(const std::string& text, int size, const std::string& font) {
-  if (text.empty()) return 0;
-  const OIIO::ROI extent = text_size(text, size, font);
-  if (!extent.defined()) throw no_font(font);
-  return extent.width();
+std::string find_caption_font() {
+  if (const std::string given = variable("FOOTPRINT_FONT"); !given.empty()) return is_file(given) ? given : "";
+  std::vector<std::string> folders(font_folders.begin(), font_folders.end());
+  std::istringstream listed(variable("OPENIMAGEIO_FONTS"));
+  for (std::string folder; std::getline(listed, folder, ':');) folders.insert(folders.begin(), folder);
+  for (const std::string& folder : folders) {
+    if (std::string file = folder + "/DejaVuSans.ttf"; is_file(file)) return file;
+  }
+  return {};
 }
 
-void draw_text(Image& picture, int x, int y, const std::string& text, int size, const std::string& font) {
-  if (text.empty()) return;
+int text_width(const std::string& text, int size) {
+  const std::string font = text.empty() ? "" : find_caption_font();
+  return font.empty() ? 0 : std::max(0, text_size(text, size, font).width());
+}
+
+void draw_text(Image& picture, int x, int y, const std::string& text, int size) {
+  const std::string font = text.empty() ? "" : find_caption_font();
+  if (font.empty()) return;
   const OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::FLOAT);
   OIIO::ImageBuf canvas(spec, picture.texels.data());  // draws into the image's own memory
-  if (!render_text(canvas, x, y, text, size, font, 1.0F, TextAlignX::Center, TextAlignY::Center)) throw no_font(font);
+  render_text(canvas, x, y, text, size, font, 1.0F, TextAlignX::Center, TextAlignY::Center);
 }
 
 }  // namespace footprint

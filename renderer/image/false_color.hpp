@@ -18,15 +18,16 @@ namespace footprint {
 /// Images of one height side by side, each with a caption below; RGB display values. Accepts 1, 3 or 4 channels.
 [[nodiscard]] Image labelled_strip(const std::vector<Image>& pictures, const std::vector<std::string>& captions);
 
-/// The font that captions are set in: DejaVu Sans, Debian package fonts-dejavu-core.
-inline constexpr const char* caption_font = "DejaVuSans";
+/// Finds the font that captions are set in, DejaVu Sans: the file FOOTPRINT_FONT if that is set, else DejaVuSans.ttf in
+/// a folder of OPENIMAGEIO_FONTS or where distributions install it (Debian's package fonts-dejavu-core). Empty: there
+/// is none, and pictures have no captions.
+[[nodiscard]] std::string find_caption_font();
 
-/// Width in pixels of one line of `text` at a nominal height of `size` pixels.
-/// Throws Error (machine): the font is not installed.
-[[nodiscard]] int text_width(const std::string& text, int size, const std::string& font = caption_font);
+/// Width in pixels of one line of `text` at a nominal height of `size` pixels; 0 without a font.
+[[nodiscard]] int text_width(const std::string& text, int size);
 
 /// Draws white `text`, centred on column `x` and row `y`, into a 3-channel image of display values, clipped to the
-/// image. Throws Error (machine): the font is not installed.
-void draw_text(Image& picture, int x, int y, const std::string& text, int size, const std::string& font = caption_font);
+/// image. Draws nothing without a font.
+void draw_text(Image& picture, int x, int y, const std::string& text, int size);
 
 }  // namespace footprint

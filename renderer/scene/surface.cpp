@@ -26,7 +26,7 @@ void check_resolution(const Surface& surface, int resolution) {
 
 }  // namespace
 
-const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name) {
+const Surface& find_surface(std::span<const Surface> surfaces, std::string_view name) {
   std::vector<std::string> names;
   for (const Surface& surface : surfaces) names.push_back(surface.name);
   return surfaces[find_word(names, name, "surface", "surface")];

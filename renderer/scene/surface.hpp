@@ -54,7 +54,7 @@ struct SceneLibrary {
 };
 
 /// The surface of a name. Throws Error (usage): unknown, with the nearest right one.
-[[nodiscard]] const Surface& find_surface(std::span<const Surface> surfaces, const std::string& name);
+[[nodiscard]] const Surface& find_surface(std::span<const Surface> surfaces, std::string_view name);
 
 /// The default settings of a surface, with `given` parameters by name. Throws Error (usage): as of Options.
 [[nodiscard]] SurfaceSettings surface_settings(const Surface& surface, const std::map<std::string, std::string>& given);

@@ -112,10 +112,10 @@ OpenGL. frame: one image rendered.
                      run.size[1]);
 }
 
-void write_edit(const EditRun& run, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "edit.json", edit_json(run));
-  write_file_atomically(folder / "edit.csv", edit_csv(run));
-  write_file_atomically(folder / "table.md", edit_table(run));
+void write_edit(const EditRun& run, const RunFolder& folder) {
+  folder.write_document("edit.json", edit_json(run));
+  folder.write_text("edit.csv", [&] { return edit_csv(run); });
+  folder.write_text("table.md", [&] { return edit_table(run); });
 }
 
 namespace {
@@ -220,10 +220,10 @@ std::string gpu_costs_html(const Results& results) {
   return html + fmt::format("<p class=\"note\">{}</p></details>\n", html_escaped(gpu_note));
 }
 
-void write_cost(const CostReport& report, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "cost.json", json_text(to_json_value(report), 2) + "\n");
-  write_file_atomically(folder / "cost.csv", cost_csv(report));
-  write_file_atomically(folder / "table.md", cost_table(report));
+void write_cost(const CostReport& report, const RunFolder& folder) {
+  folder.write_document("cost.json", json_text(to_json_value(report), 2) + "\n");
+  folder.write_text("cost.csv", [&] { return cost_csv(report); });
+  folder.write_text("table.md", [&] { return cost_table(report); });
 }
 
 namespace {

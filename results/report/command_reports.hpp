@@ -12,6 +12,7 @@
 
 #include "renderer/core/gpu_cost.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
@@ -51,7 +52,7 @@ struct EditRun {
 [[nodiscard]] std::string edit_table(const EditRun& run);
 
 /// Writes edit.json, edit.csv and table.md into `folder`, each whole or not at all. Errors (machine).
-void write_edit(const EditRun& run, const std::filesystem::path& folder);
+void write_edit(const EditRun& run, const RunFolder& folder);
 
 /// Mean rounds per pixel of the loops that depend on the pixel; 0 if the method has no such loop.
 struct LoopTrips {
@@ -88,7 +89,7 @@ struct CostReport {
 [[nodiscard]] std::string gpu_costs_html(const Results& results);
 
 /// Writes cost.json, cost.csv and table.md into `folder`, each atomically. Throws Error (machine).
-void write_cost(const CostReport& report, const std::filesystem::path& folder);
+void write_cost(const CostReport& report, const RunFolder& folder);
 
 /// Paths below the output folder.
 struct NdfImages {

@@ -175,6 +175,12 @@ Json run_json(const Results& results, const std::string& folder) {
           {"scale_top", error_text(results.error_scale)}};
 }
 
+// The results with a warning about what could not be written so far.
+Results with_losses(Results results, const RunFolder& folder) {
+  if (std::string text = folder.losses_text(); !text.empty()) results.scene.warnings.push_back(std::move(text));
+  return results;
+}
+
 // The page of runs: its scripts make views of their records.
 std::string page_of(Page page, Json runs) {
   page.eyebrow = "error, cost and memory of normal map filtering";
@@ -189,11 +195,11 @@ std::string json_text(const nlohmann::ordered_json& document, int indent) {
 
 std::string results_json(const Results& results) { return json_text(to_json_value(results), 2) + "\n"; }
 
-void write_report(const Results& results, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "results.json", results_json(results));
-  write_file_atomically(folder / "results.csv", results_csv(results));
-  write_file_atomically(folder / "table.md", results_table(results));
-  write_file_atomically(folder / "index.html", results_page(results));
+void write_report(const Results& results, const RunFolder& folder) {
+  folder.write_document("results.json", results_json(with_losses(results, folder)));
+  folder.write_text("results.csv", [&] { return results_csv(results); });
+  folder.write_text("table.md", [&] { return results_table(with_losses(results, folder)); });
+  folder.write_text("index.html", [&] { return results_page(with_losses(results, folder)); });
 }
 
 std::vector<std::string> files_below(const std::filesystem::path& folder, const std::string& subfolder) {
@@ -240,11 +246,11 @@ std::string matrix_table(const MatrixResults& matrix) {
          "noise causes.\n";
 }
 
-void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "matrix.json", json_text(to_json_value(matrix), 2) + "\n");
-  write_file_atomically(folder / "results.csv", matrix_csv(matrix));
-  write_file_atomically(folder / "table.md", matrix_table(matrix));
-  write_file_atomically(folder / "index.html", matrix_page(matrix));
+void write_matrix_report(const MatrixResults& matrix, const RunFolder& folder) {
+  folder.write_document("matrix.json", json_text(to_json_value(matrix), 2) + "\n");
+  folder.write_text("results.csv", [&] { return matrix_csv(matrix); });
+  folder.write_text("table.md", [&] { return matrix_table(matrix); });
+  folder.write_text("index.html", [&] { return matrix_page(matrix, folder.losses_text()); });
 }
 
 std::string results_page(const Results& results) {
@@ -258,12 +264,14 @@ std::string results_page(const Results& results) {
                  std::move(runs));
 }
 
-std::string matrix_page(const MatrixResults& matrix) {
+std::string matrix_page(const MatrixResults& matrix, const std::string& lede) {
   Json runs = Json::array();
   for (const auto& [folder, results] : matrix.members) runs.push_back(run_json(results, folder));
-  return page_of(
-      {.title = matrix.report.title, .text = matrix_table(matrix), .experiment = experiment_html(matrix.report)},
-      std::move(runs));
+  return page_of({.title = matrix.report.title,
+                  .lede = lede,
+                  .text = matrix_table(matrix),
+                  .experiment = experiment_html(matrix.report)},
+                 std::move(runs));
 }
 
 }  // namespace footprint

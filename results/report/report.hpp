@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/run_folder.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
@@ -38,8 +39,9 @@ namespace footprint {
 /// names.
 [[nodiscard]] std::string results_summary(const Results& results);
 
-/// Writes the four files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
-void write_report(const Results& results, const std::filesystem::path& folder);
+/// Writes the four files into `folder` (which exists), each whole or not at all: results.json first, then the others,
+/// whose loss is a loss of the folder. The losses so far are warnings in each file. Errors (machine): no results.json.
+void write_report(const Results& results, const RunFolder& folder);
 
 /// The value of `"schema"` in every results.json that this version writes.
 inline constexpr const char* results_schema = "footprint-results/2";
@@ -82,9 +84,9 @@ struct MatrixResults {
 [[nodiscard]] std::string matrix_table(const MatrixResults& matrix);
 
 /// The page over all members, which shows their pictures in their folders; else as results_page (report.hpp).
-[[nodiscard]] std::string matrix_page(const MatrixResults& matrix);
+[[nodiscard]] std::string matrix_page(const MatrixResults& matrix, const std::string& lede = {});
 
 /// Writes the files into `folder` (which exists), each whole or not at all. Errors (machine): cannot write.
-void write_matrix_report(const MatrixResults& matrix, const std::filesystem::path& folder);
+void write_matrix_report(const MatrixResults& matrix, const RunFolder& folder);
 
 }  // namespace footprint

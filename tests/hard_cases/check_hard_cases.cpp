@@ -6,7 +6,6 @@
 #include "app/messages.hpp"
 #include "app/subcommand.hpp"
 #include "renderer/core/error.hpp"
-#include "renderer/core/files.hpp"
 #include "tests/hard_cases/hard_report.hpp"
 
 namespace footprint {
@@ -15,10 +14,11 @@ void check_hard_cases(const HardCasesRequest& request) {
   ProgressDisplay display(progress_style(request.quiet));
   const hard_cases::HardSettings settings{
       .context = request.run.backend.context, .methods = request.run.methods, .wide = request.wide};
-  const auto [rows, path] = write_whole(request.output, [&](OutputFolder& folder) {
-    auto measured = hard_cases::run_hard_cases(settings, folder.path(), display.callback());
-    write_file_atomically(folder.path() / "hard_cases.json", hard_cases::hard_cases_json(measured));
-    write_file_atomically(folder.path() / "stability.md", hard_cases::stability_page(measured));
+  warn_without_captions();
+  const auto [rows, path, lost] = write_whole(request.output, [&](OutputFolder& folder) {
+    auto measured = hard_cases::run_hard_cases(settings, folder.run(), display.callback());
+    folder.run().write_document("hard_cases.json", hard_cases::hard_cases_json(measured));
+    folder.run().write_text("stability.md", [&] { return hard_cases::stability_page(measured); });
     keep(folder);
     return measured;
   });
@@ -28,7 +28,7 @@ void check_hard_cases(const HardCasesRequest& request) {
   for (const std::string& line : failures) text += "failed: " + line + "\n";
   write_output(fmt::format("{}{} checks, {} failed\npage: {}\n", text, rows.size(), failures.size(),
                            (path / "stability.md").string()));
-  if (failures.empty()) return;
+  if (failures.empty()) return throw_first({lost});
   throw Error(ErrorKind::check, std::string(hard_cases_name),
               fmt::format("{} of {} checks failed, the first: {}", failures.size(), rows.size(), failures.front()), "");
 }

@@ -175,7 +175,7 @@ class Variable {
 
 class Run {
  public:
-  Run(const HardSettings& settings, fs::path folder)
+  Run(const HardSettings& settings, RunFolder folder)
       : settings_(settings), folder_(std::move(folder)), context_(settings.context) {
     methods_ = settings.methods;
     if (!methods_.empty()) return;
@@ -220,7 +220,7 @@ class Run {
         HardRow& row = judged({spec.text, hard.name, hard.group, hard.description, figure, value, bound});
         if (row.verdict == Verdict::passed) return;
         row.picture = fmt::format("images/{}_{}.exr", hard.name, file_stem(spec.text));
-        write_exr(folder_ / row.picture, picture);
+        folder_.attempt(row.picture, [&] { write_exr(folder_ / row.picture, picture); });
       };
       add("finite", bad_numbers(picture.texels), 0.0);
       if (direct) add("direct", compare_images(picture, *direct, 1.0F).value().relative_rmse, 1e-3);
@@ -353,17 +353,18 @@ class Run {
       std::ranges::transform(values, image.texels.begin(), [](auto value) { return static_cast<float>(value); });
       return false_color(image, scale);
     };
-    const Image strip = labelled_strip({shown(directions.exact), shown(bench.densities(spec, directions))},
-                                       {"sum over texels", spec.text});
     const std::string file = fmt::format("images/{}_{}.png", name, file_stem(spec.text));
-    write_png(folder_ / file, strip);
+    const std::vector<Image> densities{shown(directions.exact), shown(bench.densities(spec, directions))};
+    folder_.attempt(file, [&] {
+      write_png(folder_ / file, labelled_strip(densities, {"sum over texels", spec.text}));
+    });
     for (HardRow& row : rows) {
       if (row.verdict != Verdict::passed) row.picture = file;
     }
   }
 
   HardSettings settings_;
-  fs::path folder_;
+  RunFolder folder_;
   gl::Context context_;
   std::vector<MethodSpec> methods_;
   std::vector<HardRow> rows_;
@@ -371,7 +372,7 @@ class Run {
 
 }  // namespace
 
-std::vector<HardRow> run_hard_cases(const HardSettings& settings, const fs::path& folder, const Progress& progress) {
+std::vector<HardRow> run_hard_cases(const HardSettings& settings, const RunFolder& folder, const Progress& progress) {
   fs::create_directories(folder / "images");
   Run run(settings, folder);
   ProgressParts parts(progress, static_cast<double>(ndf_cases().size() + picture_cases().size() + coat_cases().size() +

@@ -7,6 +7,7 @@
 
 #include "renderer/core/options.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/gl/context.hpp"
 #include "tests/hard_cases/known_limits.hpp"
 
@@ -40,7 +41,7 @@ struct HardSettings {
 
 /// Runs all cases, writes images of failures into `folder`, and returns the rows by methods and cases. Errors: those of
 /// contexts and bakes; those of `progress`.
-[[nodiscard]] std::vector<HardRow> run_hard_cases(const HardSettings& settings, const std::filesystem::path& folder,
+[[nodiscard]] std::vector<HardRow> run_hard_cases(const HardSettings& settings, const RunFolder& folder,
                                                   const Progress& progress);
 
 /// Sets a row's verdict and reason.

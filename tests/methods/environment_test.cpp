@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
@@ -102,15 +103,15 @@ TEST_P(UnderAnEnvironment, AllOfItsLightsMeetTheReferenceOnAConstantMap) {
 // Four pixels, whose differences are a footprint, do not depend on neighbours that read other levels or have more
 // lobes.
 TEST_P(UnderAnEnvironment, IsTheSameFourPixelsByFourPixels) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   const BaseBrdf brdf{NormalDistribution::ggx, GeometryTerm::smith, FresnelTerm::schlick, false};
+  const int side = map_side(*GetParam(), 64);
   const auto scene = [&] {
     Scene receding =
-        lit_square(random_normals(64, 64, 0.6F, 5), {.brdf = brdf, .roughness = 0.3F}, uneven_environment());
+        lit_square(random_normals(side, side, 0.6F, 5), {.brdf = brdf, .roughness = 0.3F}, uneven_environment());
     receding.camera = receding_grooves().camera;
     return receding;
   };
-  TestRenderer& renderer = shared_renderer("receding", scene, {24, 24});
+  TestRenderer& renderer = shared_renderer("receding " + std::to_string(side), scene, {24, 24});
   EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, {}, 2), renderer.frame(*GetParam())), 1e-4);
 }
 

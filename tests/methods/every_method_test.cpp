@@ -100,11 +100,11 @@ TEST_P(EveryMethod, KnowsLightFromBelowTheHorizonByTheScenesRule) {
 
 // Near a map that is flat where the camera looks.
 TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
-  Image normals = random_normals(64, 64, 0.5F, 2);
-  for (int y = 24; y < 40; ++y) {
-    for (int x = 24; x < 40; ++x) {
+  const int side = map_side(*GetParam(), 64);
+  Image normals = random_normals(side, side, 0.5F, 2);
+  for (int y = 3 * side / 8; y < 5 * side / 8; ++y) {
+    for (int x = 3 * side / 8; x < 5 * side / 8; ++x) {
       const glm::vec3 up(0, 0, 1);
       std::copy_n(&up.x, 3, normals.at(x, y).begin());
     }
@@ -114,11 +114,11 @@ TEST_P(EveryMethod, EqualsDirectAtMagnificationWhereTheMapIsFlat) {
 }
 
 TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   for (const BaseBrdf& brdf : some_brdfs(2)) {
     for (const float roughness : {0.0F, 1.0F}) {
       for (const float tilt : {0.0F, 0.999F}) {
-        TestRenderer renderer(square_scene(random_normals(33, 17, tilt, 3), {.brdf = brdf, .roughness = roughness}));
+        const Image normals = random_normals(map_side(*GetParam(), 33), map_side(*GetParam(), 17), tilt, 3);
+        TestRenderer renderer(square_scene(normals, {.brdf = brdf, .roughness = roughness}));
         for (const double distance : {0.05, 1.0, 20.0}) {
           for (const float value : renderer.frame(*GetParam(), {}, {}, 0, distance).texels) {
             ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
@@ -132,8 +132,8 @@ TEST_P(EveryMethod, StaysFiniteAtTheLimits) {
 // What four pixels show, whose differences are a footprint, is their own: neighbours that look other levels up, or have
 // more lobes, change nothing.
 TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
+  const int side = map_side(*GetParam(), 64);
+  Scene scene = square_scene(random_normals(side, side, 0.6F, 5), {.brdf = brdfs[2], .roughness = 0.4F});
   scene.camera = receding_grooves().camera;
   TestRenderer renderer(scene, {24, 24});
   for (const char* const text :
@@ -145,8 +145,7 @@ TEST_P(EveryMethod, IsTheSameFourPixelsByFourPixels) {
 }
 
 TEST_P(EveryMethod, IsDeterministic) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  const Scene scene = square_scene(random_normals(64, 48, 0.5F, 4), {});
+  const Scene scene = square_scene(random_normals(map_side(*GetParam(), 64), map_side(*GetParam(), 48), 0.5F, 4), {});
   EXPECT_EQ(TestRenderer(scene).frame(*GetParam()), TestRenderer(scene).frame(*GetParam()));
   const EffectSet set = effects_on(derive_effects(scene));
   const Options options(GetParam()->info.options, {}, "test");
@@ -164,9 +163,12 @@ double mean_of_colours(const Image& picture) {
 // At its finest level a method shades texels: it is then the base BRDF, except for what its representation cannot
 // store. One that knows no texels has at least their mean.
 TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  TestRenderer& renderer = shared_renderer("random", [] { return square_scene(random_normals(64, 64, 0.5F, 5), {}); });
-  static const Image reference = renderer.reference(64).mean;  // the same for all methods
+  const int side = map_side(*GetParam(), 64);
+  TestRenderer& renderer = shared_renderer("random " + std::to_string(side),
+                                           [side] { return square_scene(random_normals(side, side, 0.5F, 5), {}); });
+  static std::map<int, Image> references;  // the same for all methods with maps of one size
+  if (!references.contains(side)) references[side] = renderer.reference(64).mean;
+  const Image& reference = references[side];
   const Image finest = renderer.supersampled(*GetParam(), 64).mean;
   if (GetParam()->info.resolves_texels) {
     EXPECT_LT(compare_images(finest, reference, 1.0F).value().relative_rmse, 0.05);
@@ -176,8 +178,8 @@ TEST_P(EveryMethod, RepresentsTheBaseBrdfAtItsFinestLevel) {
 }
 
 TEST_P(EveryMethod, TakesAnisotropicProbes) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  TestRenderer renderer(square_scene(random_normals(64, 64, 0.5F, 6), {}));
+  const int side = map_side(*GetParam(), 64);
+  TestRenderer renderer(square_scene(random_normals(side, side, 0.5F, 6), {}));
   const Image isotropic = renderer.frame(*GetParam(), {}, {FootprintFilterKind::trilinear, 1});
   const Image probed = renderer.frame(*GetParam(), {}, {FootprintFilterKind::anisotropic, 8});
   EXPECT_LT(compare_images(probed, isotropic, 1.0F).value().relative_rmse, 0.5);
@@ -186,8 +188,8 @@ TEST_P(EveryMethod, TakesAnisotropicProbes) {
 
 // Half of the square is lit. The other half is as if there were no light, to the last bit, and its map's mean.
 TEST_P(EveryMethod, DrawsUnlitSurfacesInTheirColour) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  Scene scene = square_scene(random_normals(16, 16, 0.5F, 6), {.brdf = {}, .base_color = {0.75F, 0.5F, 0.25F}});
+  const int side = map_side(*GetParam(), 16);
+  Scene scene = square_scene(random_normals(side, side, 0.5F, 6), {.brdf = {}, .base_color = {0.75F, 0.5F, 0.25F}});
   scene.materials.push_back(scene.materials[0]);
   scene.materials[0].unlit = true;
   scene.meshes.push_back(scene.meshes[0]);

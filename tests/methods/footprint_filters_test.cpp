@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "methods/registry.hpp"
 #include "renderer/pipeline/frame.hpp"
@@ -18,8 +20,8 @@
 namespace footprint::testing {
 namespace {
 
-Scene receding_square() {
-  Scene scene = square_scene(random_normals(64, 64, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
+Scene receding_square(int side) {
+  Scene scene = square_scene(random_normals(side, side, 0.6F, 5), {.brdf = {}, .roughness = 0.4F});
   scene.camera = receding_grooves().camera;
   return scene;
 }
@@ -36,8 +38,9 @@ class FootprintFilters : public ::testing::TestWithParam<const Method*> {
 };
 
 TEST_P(FootprintFilters, OnePartIsTheWhole) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  TestRenderer& renderer = shared_renderer("receding", receding_square, {24, 24});
+  const int side = map_side(*GetParam(), 64);
+  TestRenderer& renderer =
+      shared_renderer("receding " + std::to_string(side), [side] { return receding_square(side); }, {24, 24});
   const Image whole = renderer.frame(*GetParam(), {}, filter_of("trilinear"));
   for (const char* const text : some(std::array{"shaded:1", "box:1", "anisotropic:1"}, 1))
     EXPECT_LT(largest_difference(renderer.frame(*GetParam(), {}, filter_of(text)), whole), 1e-4) << text;
@@ -45,11 +48,16 @@ TEST_P(FootprintFilters, OnePartIsTheWhole) {
 
 // For every method: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
 TEST_P(FootprintFilters, PartsConvergeToTheReference) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
-  const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
-  TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel", scene, {16, 16});
-  static const Image reference = renderer.reference(1024, 1, Sampling::nearest).mean;  // the same for all methods
+  const int side = map_side(*GetParam(), 128);
+  const auto scene = [side] {
+    return square_scene(random_normals(side, side, 0.5F, 7), {.brdf = {}, .roughness = 0.5F});
+  };
+  TestRenderer& renderer =
+      shared_renderer("8 x 8 texels per pixel " + std::to_string(side), scene, {side / 8, side / 8});
+  static std::map<int, Image> references;  // the same for all methods with maps of one size
+  if (!references.contains(side)) references[side] = renderer.reference(1024, 1, Sampling::nearest).mean;
+  const Image& reference = references[side];
   const double few = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:2")), reference);
   const double all = error_of(renderer.frame(*GetParam(), {}, filter_of("shaded:8")), reference);
   constexpr double noise = 0.005;  // of the reference
@@ -79,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, FootprintFilters, ::testing::ValuesIn(all_met
 // parts of the hemisphere that a walk of Xu's method visits. Hardware gets the footprint from coordinates and picks
 // its own.
 TEST(FootprintFilter, LevelsThatAModuleNamesAreTheSameUnderEach) {
-  TestRenderer& renderer = shared_renderer("receding", receding_square, {24, 24});
+  TestRenderer& renderer = shared_renderer("receding 64", [] { return receding_square(64); }, {24, 24});
   const Image finest = renderer.frame(find_method("direct"), {}, filter_of("trilinear"));
   for (const char* const text : {"anisotropic:8", "box:3", "area:3", "ewa:8"})
     EXPECT_LT(largest_difference(renderer.frame(find_method("direct"), {}, filter_of(text)), finest), 1e-5) << text;
@@ -120,7 +128,7 @@ TEST(FootprintFilter, ColoursAreLinear) {
 
 // A sum over texels is linear in the kernel: of a box's probes, or of as many parts, it is the same.
 TEST(FootprintFilter, TheExactSumIsThatOfItsParts) {
-  TestRenderer renderer(receding_square(), {16, 16});
+  TestRenderer renderer(receding_square(64), {16, 16});
   const Image probes = renderer.frame(find_method("exact"), {}, filter_of("box:3"));
   EXPECT_LT(error_of(renderer.frame(find_method("exact"), {}, filter_of("shaded:3")), probes), 0.001);
   EXPECT_GT(error_of(renderer.frame(find_method("exact"), {}, filter_of("shaded:2")), probes), 0.004);

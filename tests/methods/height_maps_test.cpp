@@ -14,13 +14,12 @@
 namespace footprint::testing {
 namespace {
 
-constexpr int heights_side = 32;
 constexpr double height_scale = 0.08;
 
-Image some_heights() {
-  Image heights(heights_side, heights_side, 1);
-  for (int y = 0; y < heights_side; ++y) {
-    for (int x = 0; x < heights_side; ++x)
+Image some_heights(int side) {
+  Image heights(side, side, 1);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x)
       heights.at(x, y)[0] = static_cast<float>((7 * x * x + 5 * y * y + 3 * x * y) % 32) / 32;
   }
   return heights;
@@ -28,14 +27,13 @@ Image some_heights() {
 
 // The slopes of central differences, up the rows and around the border.
 Image normals_by_hand(const Image& heights) {
-  Image normals(heights_side, heights_side, 3);
-  const auto height = [&](int x, int y) {
-    return static_cast<double>(heights.at(x & (heights_side - 1), y & (heights_side - 1))[0]);
-  };
-  for (int y = 0; y < heights_side; ++y) {
-    for (int x = 0; x < heights_side; ++x) {
-      const double right = (height(x + 1, y) - height(x - 1, y)) / 2.0 * height_scale * heights_side;
-      const double up = (height(x, y - 1) - height(x, y + 1)) / 2.0 * height_scale * heights_side;
+  const int side = heights.width;
+  Image normals(side, side, 3);
+  const auto height = [&](int x, int y) { return static_cast<double>(heights.at(x & (side - 1), y & (side - 1))[0]); };
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const double right = (height(x + 1, y) - height(x - 1, y)) / 2.0 * height_scale * side;
+      const double up = (height(x, y - 1) - height(x, y + 1)) / 2.0 * height_scale * side;
       const double length = std::sqrt(right * right + up * up + 1.0);
       normals.at(x, y)[0] = static_cast<float>(-right / length);
       normals.at(x, y)[1] = static_cast<float>(-up / length);
@@ -50,8 +48,9 @@ struct Twins {
   Scene heights, normals;
 };
 
-Twins load_twins(const std::string& before, const std::string& height_key, const std::string& normal_key) {
-  const Image heights = some_heights();
+Twins load_twins(const std::string& before, const std::string& height_key, const std::string& normal_key,
+                 int side = 32) {
+  const Image heights = some_heights(side);
   const auto folder = test::write_file("heights/made.txt", "").parent_path();
   write_exr(folder / "heights.exr", heights);
   write_exr(folder / "normals.exr", normals_by_hand(heights));
@@ -61,7 +60,9 @@ Twins load_twins(const std::string& before, const std::string& height_key, const
   return {load(height_key + "{ file = \"heights.exr\", scale = 0.08 }\n"), load(normal_key)};
 }
 
-Twins planes() { return load_twins("[plane]\nsize = [2, 2]\n", "height_map = ", "normal_map = \"normals.exr\"\n"); }
+Twins planes(int side) {
+  return load_twins("[plane]\nsize = [2, 2]\n", "height_map = ", "normal_map = \"normals.exr\"\n", side);
+}
 
 double difference(const Image& one, const Image& other) {
   return compare_images(one, other, 1.0F).value().relative_rmse;
@@ -70,8 +71,7 @@ double difference(const Image& one, const Image& other) {
 class HeightMaps : public ::testing::TestWithParam<const Method*> {};
 
 TEST_P(HeightMaps, AreDrawnAsTheirNormals) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
-  const Twins twins = planes();
+  const Twins twins = planes(map_side(*GetParam(), 32));
   TestRenderer heights(twins.heights), normals(twins.normals);
   const Method& method = *GetParam();
   const std::string text = method.info.name == "leadr" ? "leadr:weighting=displacement" : std::string();
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, HeightMaps, ::testing::ValuesIn(all_methods()
                          [](const auto& test) { return test.param->info.name; });
 
 TEST(HeightMapsOfTheReference, AreDrawnAsTheirNormals) {
-  const Twins twins = planes();
+  const Twins twins = planes(32);
   EXPECT_LT(difference(TestRenderer(twins.heights).reference(4).mean, TestRenderer(twins.normals).reference(4).mean),
             1e-6);
 }
@@ -110,7 +110,7 @@ TEST(HeightMapsOfModels, AreThoseOfTheirNormals) {
 }
 
 TEST(HeightMapsOfModels, ThatAreNotFiniteNameFileAndTexel) {
-  Image heights = some_heights();
+  Image heights = some_heights(32);
   heights.at(5, 6)[0] = std::nanf("");
   const auto folder = test::write_file("heights/made.txt", "").parent_path();
   write_exr(folder / "bad.exr", heights);

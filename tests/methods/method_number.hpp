@@ -1,4 +1,4 @@
-// The number of a method, by which tests take turns at a sweep, and the methods that some tests leave out.
+// The number of a method, by which tests take turns at a sweep, and the size of its maps.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,10 @@ namespace footprint::testing {
   return static_cast<std::size_t>(std::ranges::find(all_methods(), &method) - all_methods().begin());
 }
 
-/// Whether a method's fits of a test's maps take tens of seconds, so that only `scripts/test --all` has the test.
-[[nodiscard]] inline bool fits_take_long(const Method& method) {
-  return method.info.name == "best_lobes" && !all_tests();
+/// The side of a test's square map for a method: `side`, or a quarter of it for best_lobes, whose fits of larger maps
+/// take tens of seconds. `scripts/test --all` has whole maps.
+[[nodiscard]] inline int map_side(const Method& method, int side) {
+  return method.info.name == "best_lobes" && !all_tests() ? side / 4 : side;
 }
 
 }  // namespace footprint::testing

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -22,11 +23,16 @@ class StochasticFilters : public ::testing::TestWithParam<const Method*> {};
 // Pixels of 8 x 8 texels: draws of the finest level leave nothing to prefilter, so every method converges to the
 // reference that filters after shading. 256 draws have a sixteenth of the error of one.
 TEST_P(StochasticFilters, ConvergeToTheReference) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
-  const auto scene = [] { return square_scene(random_normals(128, 128, 0.5F, 7), {.brdf = {}, .roughness = 0.5F}); };
-  TestRenderer& renderer = shared_renderer("8 x 8 texels per pixel, drawn", scene, {16, 16});
-  static const Image reference = renderer.reference(4096).mean;
+  const int side = map_side(*GetParam(), 128);
+  const auto scene = [side] {
+    return square_scene(random_normals(side, side, 0.5F, 7), {.brdf = {}, .roughness = 0.5F});
+  };
+  TestRenderer& renderer =
+      shared_renderer("8 x 8 texels per pixel, drawn " + std::to_string(side), scene, {side / 8, side / 8});
+  static std::map<int, Image> references;
+  if (!references.contains(side)) references[side] = renderer.reference(4096).mean;
+  const Image& reference = references[side];
   const double one = error_of(renderer.mean_frame(*GetParam(), {}, filter_of("stochastic:1"), 1), reference);
   const double many = error_of(renderer.mean_frame(*GetParam(), {}, filter_of("stochastic:16"), 16), reference);
   EXPECT_GT(one, 0.1);

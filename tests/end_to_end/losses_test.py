@@ -87,7 +87,7 @@ class Losses(WholeRunTest):
     def test_a_limit_on_file_sizes(self):
         """Every image is refused by the system itself."""
         out = self.folder / "limited"
-        limit = 48 << 10
+        limit = 24 << 10
         larger = ["128x128" if word == "32x32" else word for word in COMPARE]
         done = subprocess.run([PROGRAM, *larger, "-o", out], capture_output=True, text=True, check=False,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))

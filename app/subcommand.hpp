@@ -21,6 +21,7 @@
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/scene/settings/part.hpp"
 #include "results/report/records.hpp"
 #include "results/report/report.hpp"

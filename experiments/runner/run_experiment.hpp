@@ -10,6 +10,7 @@
 
 #include "experiments/runner/experiment.hpp"
 #include "experiments/studies/compare.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {

@@ -15,6 +15,7 @@
 #include "experiments/studies/reference_view.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {

@@ -11,6 +11,7 @@
 #include "experiments/settings/run_settings.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "renderer/core/progress.hpp"
+#include "renderer/core/run_folder.hpp"
 #include "renderer/gpu_cost/compiled_programs.hpp"
 #include "results/report/recommendation.hpp"
 

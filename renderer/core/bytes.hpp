@@ -145,7 +145,8 @@ class ByteArchive {
   void pass(std::optional<T>& value) {
     bool has_value = value.has_value();
     pass(has_value);
-    if (in_) value = has_value ? std::optional<T>(std::in_place) : std::nullopt;
+    if (in_) value.reset();
+    if (in_ && has_value) value.emplace();
     if (value) pass(*value);
   }
   template <class T>

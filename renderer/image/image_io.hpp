@@ -12,21 +12,37 @@
 
 namespace footprint {
 
-/// How the numbers of a file become floats.
+/// What the numbers of a file mean.
 enum class Transfer {
-  linear,  ///< as stored: 0..1 for integer formats, the value for float formats (normal maps, roughness, EXR)
-  srgb,    ///< colour channels of integer formats are decoded from sRGB; alpha and float formats stay as they are
+  linear,   ///< data, such as normals and roughness: as stored, 0..1 for integers, whatever colours the file declares
+  srgb,     ///< colours of a material: integers are decoded from sRGB, as glTF demands, floats converted to Rec. 709
+  declared  ///< a picture: curve, primaries and orientation as its file declares; integers are sRGB without a word
 };
 
-/// Reads a PNG, JPEG, EXR, Radiance HDR, TIFF, BMP or WebP file, identified by its first bytes. 1 to 4 channels come
-/// back as stored, including NaN and negative values in float files. Alpha is never premultiplied.
+/// An image and what else its file says.
+struct FileImage {
+  Image image{};
+  bool floats = false;             ///< linear floats of any size, not integers that mean 0 to 1
+  std::vector<std::string> notes{};  ///< what of the file is left out, one line each, without its name
+};
+
+/// Reads a PNG, JPEG, EXR, Radiance HDR, TIFF, BMP or WebP file, identified by its first bytes. Channels are chosen by
+/// name (channel_names.hpp), 1 to 4 of them, including NaN and negative values in float files. Colours are never
+/// multiplied by alpha, which is the last of 2 or 4 channels. Pixels are in their place in an EXR's display window; a
+/// declared picture that stores a part of them has coverage 0 elsewhere, maps have 0. An HDR's order of pixels and its
+/// exposure always count.
 /// max_side: larger images are refused by their header, before memory is allocated.
-/// Throws Error (usage): missing, empty, not an image, truncated, too large, no channel or more than four; (machine):
-/// not enough memory.
-[[nodiscard]] Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side = 16384);
+/// Throws Error (usage): missing, empty, not an image, truncated, too large, an animation, channels or colours that
+/// have no meaning for `transfer`; (machine): not enough memory.
+[[nodiscard]] FileImage read_file_image(const std::filesystem::path& file, Transfer transfer, int max_side = 16384);
 
 /// Reads the encoded bytes of a file, such as an image in a glTF buffer.
 /// name: for error messages.
+[[nodiscard]] FileImage read_file_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer,
+                                        int max_side = 16384);
+
+/// The image alone, of a file or of its encoded bytes.
+[[nodiscard]] Image read_image(const std::filesystem::path& file, Transfer transfer, int max_side = 16384);
 [[nodiscard]] Image read_image(std::span<const std::uint8_t> bytes, const std::string& name, Transfer transfer,
                                int max_side = 16384);
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "renderer/core/error.hpp"
@@ -76,6 +77,30 @@ Image with_three_channels(Image image) {
   image.channels = 3;
   image.texels.resize(3 * image.texel_count());
   return image;
+}
+
+// Other layouts than latitude and longitude, by their shapes.
+std::string_view probable_layout(int width, int height) {
+  if (width == height) return ", and a square may be a mirror ball or an angular map";
+  if (4 * height == 3 * width || 4 * width == 3 * height) return ", and 4:3 may be a cube map as a cross";
+  if (width == 6 * height || height == 6 * width) return ", and 6:1 may be a cube map as a strip";
+  return "";
+}
+
+// A latitude-longitude picture has twice as many columns as rows, and a sky more than one colour.
+void add_shape_warnings(const Image& image, const std::string& name, std::vector<std::string>& warnings) {
+  if (image.texel_count() == 1) return;
+  if (std::abs(image.width - 2 * image.height) > 1) {
+    warnings.push_back(
+        fmt::format("{}: a latitude-longitude picture is 2:1, but this one is {} x {}{}: it is stretched "
+                    "over the sphere; convert it if it has another layout",
+                    name, image.width, image.height, probable_layout(image.width, image.height)));
+  }
+  const auto first = image.at(0, 0);
+  for (std::size_t i = 0; i < image.texels.size(); ++i) {
+    if (image.texels[i] != first[i % 3]) return;
+  }
+  warnings.push_back(fmt::format("{}: every texel has the same radiance", name));
 }
 
 constexpr int sky_width = 1024;
@@ -303,8 +328,10 @@ Environment constant_environment(const glm::vec3& radiance) {
 }
 
 Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings) {
-  Image image = read_image(file, Transfer::srgb);
+  FileImage read = read_file_image(file, Transfer::declared);
+  Image image = std::move(read.image);
   const std::string name = file.filename().string();
+  for (const std::string& note : read.notes) warnings.push_back(fmt::format("{}: {}", name, note));
   if (image.channels == 2) {
     throw Error(ErrorKind::usage, file.string(), "has 2 channels", "give an environment with 1, 3 or 4 channels");
   }
@@ -314,6 +341,7 @@ Environment load_environment(const std::filesystem::path& file, std::vector<std:
   if (const auto count = std::ranges::count_if(image.texels, is_negative); count > 0)
     warnings.push_back(fmt::format("{}: {} negative values of radiance are taken as 0", name, count));
   std::ranges::replace_if(image.texels, is_negative, 0.0F);
+  add_shape_warnings(image, name, warnings);
   if (image.width > largest_environment_width || image.height > largest_environment_width / 2) {
     warnings.push_back(fmt::format("{}: {} x {} texels are averaged down to {} x {}", name, image.width, image.height,
                                    largest_environment_width, largest_environment_width / 2));

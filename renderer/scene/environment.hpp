@@ -53,8 +53,9 @@ struct SkySettings {
 /// Wider maps are averaged down to this width, the largest of the sampling tables.
 inline constexpr int largest_environment_width = 2048;
 
-/// Loads an equirectangular map (EXR or Radiance HDR; integer formats are read as sRGB) of 1, 3 or 4 channels, of which
-/// the fourth is ignored. Negative values become 0 and add a line to `warnings`. Throws Error (usage): as read_image;
+/// Loads an equirectangular map (EXR or Radiance HDR; integer formats as displayed colours) of 1, 3 or 4 channels, of
+/// which the fourth is ignored. Adds to `warnings`: negative values, which become 0; another shape than 2:1; the same
+/// radiance everywhere; what is left out of the file. Throws Error (usage): as read_image;
 /// two channels; a value that is not finite, with file and texel.
 [[nodiscard]] Environment load_environment(const std::filesystem::path& file, std::vector<std::string>& warnings);
 

@@ -1,6 +1,8 @@
 // Environments from scene.toml and from files: their content, and the faults of bad ones.
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -87,11 +89,57 @@ TEST(EnvironmentFile, ValuesThatAreNotFiniteNameFileAndTexel) {
 }
 
 TEST(EnvironmentFile, LargeMapsAreAveragedDown) {
-  write_exr(folder() / "large.exr", Image(4096, 1024, 3, 0.75F));
+  Image large(4096, 2048, 3, 0.75F);
+  large.texels[0] = 0.5F;
+  write_exr(folder() / "large.exr", large);
   const Scene scene = load_environment("file = \"large.exr\"");
   EXPECT_EQ(scene.environment->radiance->width, largest_environment_width);
   EXPECT_NEAR(scene.environment->radiance->texels[12345], 0.75F, 1e-6F);
   EXPECT_EQ(scene.warnings.size(), 1U);
+}
+
+TEST(EnvironmentFile, OtherShapesThanTwoToOneAreNamed) {
+  struct Shape {
+    int width, height;
+    const char* says;  // null: no warning
+  };
+  for (const auto& [width, height, says] :
+       {Shape{8, 4, nullptr}, Shape{9, 4, nullptr}, Shape{1, 1, nullptr}, Shape{8, 8, "angular map"},
+        Shape{8, 6, "as a cross"}, Shape{6, 8, "as a cross"}, Shape{12, 2, "as a strip"}, Shape{4, 8, "2:1"}}) {
+    write_exr(folder() / "shape.exr", ramp(width, height, 3));
+    const std::vector<std::string> warnings = load_environment("file = \"shape.exr\"").warnings;
+    ASSERT_EQ(warnings.size(), says == nullptr ? 0U : 1U) << width << " x " << height;
+    if (says != nullptr) {
+      EXPECT_NE(warnings[0].find(says), std::string::npos) << warnings[0];
+    }
+  }
+}
+
+TEST(EnvironmentFile, TheSameRadianceEverywhereIsNamed) {
+  write_exr(folder() / "grey.exr", Image(4, 2, 3, 0.5F));
+  const std::vector<std::string> warnings = load_environment("file = \"grey.exr\"").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("the same radiance"), std::string::npos);
+}
+
+// A sky of 4 x 2 texels that stores one of them lights by that one.
+TEST(EnvironmentFile, APartOfASkyLightsByThatPart) {
+  OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::FLOAT);
+  spec.x = 2;
+  spec.y = 1;
+  spec.full_width = 4;
+  spec.full_height = 2;
+  const std::string file = (folder() / "part.exr").string();
+  const std::array<float, 3> radiance{1.0F, 2.0F, 4.0F};
+  const auto output = OIIO::ImageOutput::create(file);
+  ASSERT_TRUE(output->open(file, spec) && output->write_image(OIIO::TypeDesc::FLOAT, radiance.data()));
+  ASSERT_TRUE(output->close());
+  const Scene scene = load_environment("file = \"part.exr\"");
+  Image expected(4, 2, 3);
+  std::ranges::copy(radiance, expected.at(2, 1).begin());
+  EXPECT_EQ(*scene.environment->radiance, expected);
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_NE(scene.warnings[0].find("a part of its 4 x 2 pixels"), std::string::npos) << scene.warnings[0];
 }
 
 TEST(EnvironmentFile, PhotographedEnvironmentOfAPackageLoads) {

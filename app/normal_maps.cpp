@@ -2,6 +2,7 @@
 // tools, what a normal map is like by the size of a footprint, and each method's NDF of the facets under one.
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "experiments/studies/ndf_inspection.hpp"
 #include "renderer/bake/map_statistics.hpp"
 #include "renderer/core/memory.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/core/numbers.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
@@ -73,7 +75,7 @@ Image normals_only(const Image& map) {
 
 void save(const std::filesystem::path& path, Image normals) {
   throw_if_interrupted();
-  if (path.extension() == ".exr") return write_exr(path, normals);
+  if (lower_extension(path) == ".exr") return write_exr(path, normals);
   for (float& value : normals.texels) value = 0.5F * value + 0.5F;
   write_png(path, normals);
 }
@@ -146,11 +148,23 @@ auto of_file(const std::string& file, Work work) {
   }
 }
 
+// A map beside the normal map, whose first channel must be finite and within 0 to `most`.
+Image read_values(const std::string& file, float most) {
+  Image map = read_image(file, Transfer::linear);
+  for_each_texel(map, [&](int x, int y) {
+    const float value = map.at(x, y)[0];
+    if (value >= 0.0F && value <= most) return;
+    throw Error(ErrorKind::usage, fmt::format("{}: texel ({}, {})", file, x, y),
+                fmt::format("contains {}, which is not within 0 to {:g}", value, most), "fix the map");
+  });
+  return map;
+}
+
 // The alphas of --alpha or --roughness; empty without either.
 Image alphas_of(const StatisticsArguments& arguments) {
   if (arguments.alpha) return {1, 1, 1, static_cast<float>(*arguments.alpha)};
   if (arguments.roughness.empty()) return {};
-  const Image roughness = read_image(arguments.roughness, Transfer::linear);
+  const Image roughness = read_values(arguments.roughness, 1.0F);
   Image alphas(roughness.width, roughness.height, 1);
   for (std::size_t i = 0; i < alphas.texel_count(); ++i) {
     const float value = roughness.texels[i * static_cast<std::size_t>(roughness.channels)];
@@ -161,15 +175,16 @@ Image alphas_of(const StatisticsArguments& arguments) {
 
 Statistics statistics_of(const StatisticsArguments& arguments) {
   const NormalFile file = arguments.how.of(arguments.map);
-  std::vector<std::string> faults;  // the share of unit vectors tells them
+  std::vector<std::string> faults;
   const Image normals = read_normals(file, faults).decoded();
+  for (const std::string& fault : faults) write_message("warning: " + fault);
   const bool encoded = !file.heights && !is_exr(file.path);
   Statistics statistics{.width = normals.width,
                         .height = normals.height,
                         .unit_share = encoded ? unit_share(read_image(file.path, Transfer::linear)) : 1.0,
                         .levels = map_statistics(normals)};
   if (!arguments.gloss.empty()) {
-    const Image gloss = read_image(arguments.gloss, Transfer::linear);
+    const Image gloss = read_values(arguments.gloss, std::numeric_limits<float>::max());
     statistics.correlation =
         of_file(arguments.gloss, [&] { return correlation_with_spread(normals, gloss, correlated_level); });
   }

@@ -33,7 +33,7 @@ TEST(MapTexels, KeepsNormalsOfEightBitsInAsMany) {
   const Image stored = bytes_as_floats(3);
   std::vector<std::string> faults;
   const auto decode = [](const Image& image) { return decode_normal_map(image, 0.7); };
-  const MapTexels map = stored_normals(stored, decode, "noise", faults);
+  const MapTexels map = stored_normals({.image = stored}, decode, "noise", faults);
   EXPECT_EQ(faults.size(), 1U);  // half of them point inwards
   EXPECT_TRUE(equal_bits(map.decoded(), decode_normal_map(stored, 0.7).image));
   EXPECT_TRUE(equal_bits(map.decoded(), map.decoded()));

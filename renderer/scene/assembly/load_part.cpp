@@ -56,13 +56,15 @@ Model load_plane(const PlaneSettings& settings) {
   if (settings.normals) material.normal_map = make_map(*settings.normals, model.warnings);
   if (settings.base_color_map) {
     const auto& file = *settings.base_color_map;
-    material.base_color_map = make_map(file, MapTexels::packed(to_rgba(read_image(file, Transfer::srgb))));
+    material.base_color_map =
+        make_map(file, MapTexels::packed(to_rgba(read_unit_map(file, Transfer::srgb, color_channels, model.warnings))));
   }
   if (settings.metallic_roughness_map) {
     const auto& file = *settings.metallic_roughness_map;
     material.metallic_roughness_map =
-        make_map(file, MapTexels::packed(decode_metallic_roughness(read_image(file, Transfer::linear),
-                                                                   settings.roughness, settings.metallic)));
+        make_map(file, MapTexels::packed(decode_metallic_roughness(
+                           read_unit_map(file, Transfer::linear, roughness_channels, model.warnings),
+                           settings.roughness, settings.metallic)));
   }
   model.materials.push_back(std::move(material));
   model.meshes.push_back(make_plane(settings.size, {1.0F, 1.0F}));
@@ -191,15 +193,19 @@ Image with_metallic(const Image& roughness, float metallic) {
       roughness, 2, [](const auto& in, const auto& out) { out[0] = in[0]; }, metallic);
 }
 
-Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution distribution) {
-  const Image stored = read_image(file, Transfer::linear);
+Image read_lobe_parameter(const std::filesystem::path& file, NormalDistribution distribution,
+                          std::vector<std::string>& warnings) {
+  const FileImage stored = read_file_image(file, Transfer::linear);
   if (!is_exr(file)) {
     throw Error(ErrorKind::usage, file.string(), "is not an EXR, and no other format can store a lobe parameter",
                 "store it as 32-bit floats in an EXR, or give a map of roughness");
   }
   const NumberRange range = lobe_range(distribution);
   try {
-    return decode_lobe_parameter(stored, range.low, range.high);
+    for (std::string& line :
+         describe_file(stored, first_channel_alone, fmt::format("map `{}`", file.filename().string())))
+      warnings.push_back(std::move(line));
+    return decode_lobe_parameter(stored.image, range.low, range.high);
   } catch (const Error& error) {
     throw error.within(file.string());
   }
@@ -214,7 +220,9 @@ void lay_maps(const PartSettings& settings, Model& model) {
         make_map(from->file, MapTexels::packed(read(from->file)), from->uv.value_or(settings.tiling));
     for (Material& material : model.materials) lay_over(map, material);
   };
-  const auto read_rgb = [](const auto& file) { return to_rgb(read_image(file, Transfer::srgb)); };
+  const auto read_rgb = [&](const auto& file) {
+    return to_rgb(read_unit_map(file, Transfer::srgb, color_channels, model.warnings));
+  };
   lay(maps.specular, read_rgb, [&](const TextureMap& map, Material& material) {
     material.metallic_roughness_map.reset();
     material.specular_map = map;
@@ -227,9 +235,11 @@ void lay_maps(const PartSettings& settings, Model& model) {
   }
   const NormalDistribution distribution = settings.brdf.distribution.value_or(NormalDistribution::ggx);
   lay(
-      maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution); },
+      maps.lobe_parameter, [&](const auto& file) { return read_lobe_parameter(file, distribution, model.warnings); },
       [](const TextureMap& map, Material& material) { material.lobe_parameter_map = map; });
-  const auto read_roughness = [](const auto& file) { return to_rgb(read_image(file, Transfer::linear)); };
+  const auto read_roughness = [&](const auto& file) {
+    return to_rgb(read_unit_map(file, Transfer::linear, first_channel_alone, model.warnings));
+  };
   lay(maps.roughness, read_roughness, [](const TextureMap& map, Material& material) {
     material.lobes.clear();
     material.lobe_parameter_map.reset();
@@ -237,9 +247,12 @@ void lay_maps(const PartSettings& settings, Model& model) {
     material.metallic_roughness_map->image = MapTexels::packed(with_metallic(map.image.decoded(), material.metallic));
   });
   lay(
-      maps.normal_kappa, [](const auto& file) { return read_lobe_parameter(file, NormalDistribution::vmf); },
+      maps.normal_kappa,
+      [&](const auto& file) { return read_lobe_parameter(file, NormalDistribution::vmf, model.warnings); },
       spread_normals);
-  const auto read_rgba = [](const auto& file) { return to_rgba(read_image(file, Transfer::srgb)); };
+  const auto read_rgba = [&](const auto& file) {
+    return to_rgba(read_unit_map(file, Transfer::srgb, color_channels, model.warnings));
+  };
   lay(maps.diffuse, read_rgba, [&](const TextureMap& map, Material& material) {
     material.base_color_map = map;
     material.base_color = {settings.brdf.base_color.value_or(glm::vec3(1.0F)), material.base_color.a};

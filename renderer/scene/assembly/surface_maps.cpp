@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
-#include "renderer/image/image_io.hpp"
 
 namespace footprint {
 namespace {
@@ -66,28 +65,81 @@ NormalMap to_normal_map(const Image& stored, Decode decode, bool xy, double scal
   return map;
 }
 
-// Most texels must be unit vectors. Those without a direction (zero, not finite) do not count.
-void require_unit_vectors(const Image& stored) {
-  constexpr double tolerance = 0.02;  // of a length: half floats and bytes that were decoded stay within
+constexpr double unit_tolerance = 0.02;  // of a length: half floats and bytes that were decoded stay within
+
+// The texels of a normal map that are unit vectors as stored, or once decoded from 0 to 1. Those without a direction
+// (zero, not finite) do not count.
+struct UnitCounts {
   std::size_t texels = 0, as_stored = 0, as_encoded = 0;
+};
+
+UnitCounts count_unit_vectors(const Image& stored) {
+  UnitCounts counts;
   for (std::size_t i = 0; i < stored.texel_count(); ++i) {
     const float* const in = &stored.texels[i * static_cast<std::size_t>(stored.channels)];
     const glm::dvec3 v(in[0], in[1], in[2]);
     const double length = glm::length(v);
     if (!std::isfinite(length) || length < 1e-3) continue;
-    ++texels;
-    if (std::abs(length - 1.0) < tolerance) ++as_stored;
-    if (std::abs(glm::length(2.0 * v - 1.0) - 1.0) < tolerance) ++as_encoded;
+    ++counts.texels;
+    if (std::abs(length - 1.0) < unit_tolerance) ++counts.as_stored;
+    if (std::abs(glm::length(2.0 * v - 1.0) - 1.0) < unit_tolerance) ++counts.as_encoded;
   }
-  if (2 * as_stored >= texels) return;
-  if (2 * as_encoded >= texels) {
+  return counts;
+}
+
+Error encoded_normals(const std::string& hint) {
+  return {
+      ErrorKind::usage, {}, "its values are normals encoded as 0 to 1, but an EXR must store x, y, z of -1 to 1", hint};
+}
+
+void require_unit_vectors(const Image& stored) {
+  const UnitCounts counts = count_unit_vectors(stored);
+  if (2 * counts.as_stored >= counts.texels) return;
+  if (2 * counts.as_encoded >= counts.texels) throw encoded_normals("store 2 c - 1, or give the map as PNG");
+  throw Error(
+      ErrorKind::usage, {},
+      fmt::format("{} of {} texels do not contain a unit vector", counts.texels - counts.as_stored, counts.texels),
+      "store unit normals, x, y, z of -1 to 1 in the first three channels");
+}
+
+// The finite x and y of a map: their mean and range, and how many are longer than a unit vector.
+struct XyRange {
+  glm::dvec2 sum{0.0}, least{1e30}, most{-1e30};
+  std::size_t texels = 0, too_long = 0;
+
+  explicit XyRange(const Image& stored) {
+    for (std::size_t i = 0; i < stored.texel_count(); ++i) {
+      const float* const in = &stored.texels[i * static_cast<std::size_t>(stored.channels)];
+      const glm::dvec2 xy(in[0], in[1]);
+      if (!std::isfinite(xy.x) || !std::isfinite(xy.y)) continue;
+      ++texels;
+      sum += xy;
+      least = glm::min(least, xy);
+      most = glm::max(most, xy);
+      if (glm::length(xy) > 1.0 + unit_tolerance) ++too_long;
+    }
+  }
+
+  // Bumps lean to all sides, so that x and y of -1 to 1 have both signs, and encoded ones a mean about 0.5.
+  [[nodiscard]] bool seems_encoded() const {
+    const auto is_half = [&](int axis) { return std::abs(sum[axis] / static_cast<double>(texels) - 0.5) < 0.25; };
+    const bool in_range = std::min(least.x, least.y) >= 0.0 && std::max(most.x, most.y) <= 1.0 + unit_tolerance;
+    return in_range && (too_long > 0 || (is_half(0) && is_half(1)));
+  }
+};
+
+void require_unit_xy(const Image& stored) {
+  const XyRange range(stored);
+  if (range.texels == 0) return;
+  if (range.seems_encoded()) {
+    throw encoded_normals(
+        "store 2 c - 1, or give the map as PNG; if these are unit normals, store their z as a third channel");
+  }
+  if (2 * range.too_long > range.texels) {
     throw Error(ErrorKind::usage, {},
-                "its values are normals encoded as 0 to 1, but an EXR must store x, y, z of -1 to 1",
-                "store 2 c - 1, or give the map as PNG");
+                fmt::format("x and y of {} of {} texels are longer than a unit vector", range.too_long, range.texels),
+                "store x and y of unit normals, of -1 to 1");
   }
-  throw Error(ErrorKind::usage, {},
-              fmt::format("{} of {} texels do not contain a unit vector", texels - as_stored, texels),
-              "store unit normals, x, y, z of -1 to 1 in the first three channels");
 }
 
 // Throws Error (usage) that names the first texel whose first channel is not `valid`.
@@ -117,8 +169,46 @@ std::array<double, 3> row_weights(SlopeFilter filter) {
   return {0.0, 0.5, 0.0};
 }
 
-MapTexels stored_heights(const Image& stored, double scale, const HeightSettings& settings) {
-  const Image heights = first_channel(stored);
+// Whether an image of several texels is the same everywhere in some channels.
+bool is_constant(const Image& image, std::span<const std::size_t> channels) {
+  const auto same = [&](std::size_t texel, std::size_t channel) {
+    return image.texels[texel * static_cast<std::size_t>(image.channels) + channel] == image.texels[channel];
+  };
+  for (std::size_t i = 1; i < image.texel_count(); ++i) {
+    if (!std::ranges::all_of(channels, [&](std::size_t channel) { return same(i, channel); })) return false;
+  }
+  return image.texel_count() > 1;
+}
+
+// The values of some channels that are not 0 to 1.
+struct UnitRange {
+  std::size_t not_finite = 0, outside = 0;
+  float least = 0.0F, most = 1.0F;  // of all values and of 0 and 1
+
+  UnitRange(const Image& image, std::span<const std::size_t> channels) {
+    for (std::size_t i = 0; i < image.texel_count(); ++i) {
+      for (const std::size_t channel : channels)
+        add(image.texels[i * static_cast<std::size_t>(image.channels) + channel]);
+    }
+  }
+
+ private:
+  void add(float value) {
+    if (!std::isfinite(value)) {
+      ++not_finite;
+    } else if (value < 0.0F || value > 1.0F) {
+      ++outside;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+};
+
+MapTexels stored_heights(const FileImage& file, double scale, const HeightSettings& settings, const std::string& name,
+                         std::vector<std::string>& faults) {
+  const std::string title = fmt::format("height map `{}`", name);
+  std::ranges::move(describe_file(file, first_channel_alone, title), std::back_inserter(faults));
+  const Image heights = first_channel(file.image);
   const auto decode = [scale, settings](const Image& again) { return normals_of_heights(again, scale, settings); };
   return MapTexels::packed(decode(heights), heights, decode);
 }
@@ -157,29 +247,75 @@ NormalMap decode_normal_map(const Image& stored, double scale, NormalChannels ch
 NormalMap decode_unit_normals(const Image& stored, double scale, NormalChannels channels) {
   require_two_channels(stored);
   const bool xy = holds_xy(stored, channels);
-  if (!xy) require_unit_vectors(stored);
+  xy ? require_unit_xy(stored) : require_unit_vectors(stored);
   return to_normal_map(
       stored, [](const auto& v) { return v; }, xy, scale);
 }
 
-MapTexels stored_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
+void require_encoded_normals(const Image& stored, NormalChannels channels) {
+  const bool xy = holds_xy(stored, channels);
+  const UnitCounts counts = xy ? UnitCounts() : count_unit_vectors(stored);
+  const XyRange range(stored);
+  const bool negative = range.texels > 0 && std::min(range.least.x, range.least.y) < -unit_tolerance;
+  if (!negative && (2 * counts.as_encoded >= counts.texels || 2 * counts.as_stored < counts.texels)) return;
+  throw Error(ErrorKind::usage, {}, "its values are normals of -1 to 1, which only an EXR may store",
+              "save it as an EXR, or store (n + 1) / 2");
+}
+
+MapTexels stored_normals(const FileImage& file, const std::function<NormalMap(const Image&)>& decode,
                          const std::string& name, std::vector<std::string>& faults) {
-  const NormalMap map = decode(stored);
+  const NormalMap map = decode(file.image);
+  const auto counted = std::span(color_channels).first(static_cast<std::size_t>(std::min(file.image.channels, 3)));
+  std::ranges::move(describe_file(file, counted, fmt::format("normal map `{}`", name)), std::back_inserter(faults));
   std::ranges::move(describe_faults(map, name), std::back_inserter(faults));
-  return MapTexels::packed(map.image, stored, [decode](const Image& again) { return decode(again).image; });
+  return MapTexels::packed(map.image, file.image, [decode](const Image& again) { return decode(again).image; });
 }
 
 MapTexels read_normals(const NormalFile& file, std::vector<std::string>& faults) {
-  const Image stored = read_image(file.path, Transfer::linear);
+  const FileImage stored = read_file_image(file.path, Transfer::linear);
+  const std::string name = file.path.filename().string();
   try {
-    if (file.heights) return stored_heights(stored, file.scale, *file.heights);
-    const auto decode = [scale = file.scale, channels = file.channels, unit = is_exr(file.path)](const Image& image) {
+    if (file.heights) return stored_heights(stored, file.scale, *file.heights, name, faults);
+    const bool unit = is_exr(file.path);
+    if (stored.floats && !unit) require_encoded_normals(stored.image, file.channels);
+    const auto decode = [scale = file.scale, channels = file.channels, unit](const Image& image) {
       return unit ? decode_unit_normals(image, scale, channels) : decode_normal_map(image, scale, channels);
     };
-    return stored_normals(stored, decode, file.path.filename().string(), faults);
+    return stored_normals(stored, decode, name, faults);
   } catch (const Error& error) {
     throw error.within(file.path.string());
   }
+}
+
+std::vector<std::string> describe_file(const FileImage& file, std::span<const std::size_t> channels,
+                                       const std::string& title) {
+  std::vector<std::string> lines;
+  for (const std::string& note : file.notes) lines.push_back(fmt::format("{}: {}", title, note));
+  if (file.floats && is_constant(file.image, channels))
+    lines.push_back(fmt::format("{}: every texel has the same value", title));
+  return lines;
+}
+
+std::vector<std::string> describe_unit_values(const FileImage& file, std::span<const std::size_t> channels,
+                                              const std::string& name) {
+  const std::span<const std::size_t> counted = file.image.channels >= 3 ? channels : first_channel_alone;
+  std::vector<std::string> lines = describe_file(file, counted, fmt::format("map `{}`", name));
+  if (!file.floats) return lines;
+  const UnitRange range(file.image, counted);
+  if (range.not_finite > 0)
+    lines.push_back(fmt::format("map `{}`: {} values are not finite and are taken as 0 or 1", name, range.not_finite));
+  if (range.outside > 0) {
+    lines.push_back(fmt::format("map `{}`: {} values are outside of 0 to 1 ({:.4g} to {:.4g}) and are clamped", name,
+                                range.outside, range.least, range.most));
+  }
+  return lines;
+}
+
+Image read_unit_map(const std::filesystem::path& file, Transfer transfer, std::span<const std::size_t> channels,
+                    std::vector<std::string>& warnings) {
+  FileImage read = read_file_image(file, transfer);
+  std::ranges::move(describe_unit_values(read, channels, file.filename().string()), std::back_inserter(warnings));
+  return std::move(read.image);
 }
 
 void scale_slopes(Image& normals, double strength) {

@@ -1,13 +1,15 @@
 // Texture files to the maps that Material defines: normals with weights, roughness and metallic, RGBA colour.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "renderer/image/image.hpp"
+#include "renderer/image/image_io.hpp"
 #include "renderer/lobes/lobe.hpp"
 #include "renderer/scene/map_texels.hpp"
 #include "renderer/scene/material.hpp"
@@ -33,15 +35,41 @@ struct NormalMap {
 [[nodiscard]] NormalMap decode_unit_normals(const Image& stored, double scale = 1.0,
                                             NormalChannels channels = NormalChannels::xyz);
 
-/// Reads a file of heights, or of normals: unit normals in an EXR, (n + 1) / 2 in all other formats. Adds faults to
-/// `faults`. Throws Error (usage) that names the file: as the functions above and normals_of_heights, and as
-/// read_image.
+/// Throws Error (usage): floats that should be (n + 1) / 2 are unit normals, x, y, z of -1 to 1.
+void require_encoded_normals(const Image& stored, NormalChannels channels);
+
+/// Reads a file of heights, or of normals: unit normals in an EXR, (n + 1) / 2 in all other formats. Adds faults, and
+/// what is left out of the file, to `faults`. Throws Error (usage) that names the file: as the functions above,
+/// normals_of_heights, require_encoded_normals and read_file_image.
 [[nodiscard]] MapTexels read_normals(const NormalFile& file, std::vector<std::string>& faults);
 
-/// The normals of a stored map, in the form that materials store. Adds faults to `faults`.
-/// decode: one of the functions above.
-[[nodiscard]] MapTexels stored_normals(const Image& stored, const std::function<NormalMap(const Image&)>& decode,
+/// The normals of a stored map, in the form that materials store. Adds faults, and what is left out of the file, to
+/// `faults`.
+/// decode: decode_normal_map, or decode_unit_normals for an EXR.
+[[nodiscard]] MapTexels stored_normals(const FileImage& file, const std::function<NormalMap(const Image&)>& decode,
                                        const std::string& name, std::vector<std::string>& faults);
+
+/// What is left out of a map's file, and whether its floats are the same everywhere: one line each, after `title`.
+/// channels: those of the file that count.
+/// title: such as "map `gloss.exr`".
+[[nodiscard]] std::vector<std::string> describe_file(const FileImage& file, std::span<const std::size_t> channels,
+                                                     const std::string& title);
+
+/// The lines of describe_file for a map whose values mean 0 to 1, and the floats that are not: outside of that range,
+/// or not finite.
+/// channels: those that count in a file of three or more; otherwise the first counts.
+[[nodiscard]] std::vector<std::string> describe_unit_values(const FileImage& file,
+                                                            std::span<const std::size_t> channels,
+                                                            const std::string& name);
+
+/// Reads the file of such a map. Adds those lines to `warnings`. Throws as read_file_image.
+[[nodiscard]] Image read_unit_map(const std::filesystem::path& file, Transfer transfer,
+                                  std::span<const std::size_t> channels, std::vector<std::string>& warnings);
+
+/// The channels of colours, of roughness beside metalness, and of a single quantity.
+inline constexpr std::array<std::size_t, 3> color_channels{0, 1, 2};
+inline constexpr std::array<std::size_t, 2> roughness_channels{1, 2};
+inline constexpr std::array<std::size_t, 1> first_channel_alone{0};
 
 /// Multiplies the slopes of a normal map by `strength`.
 void scale_slopes(Image& normals, double strength);

@@ -242,6 +242,62 @@ TEST(SurfaceMaps, FilesOfNormalsAreReadByTheirFormat) {
   }
 }
 
+// A bumpy map, whose x and y have both signs, in two channels or with a third that does not count.
+Image bumps_xy(int channels, float offset, float scale) {
+  Image map(8, 8, channels, 0.0F);
+  for_each_texel(map, [&](int x, int y) {
+    map.at(x, y)[0] = offset + scale * 0.6F * std::sin(0.785F * static_cast<float>(x));
+    map.at(x, y)[1] = offset + scale * 0.5F * std::cos(0.785F * static_cast<float>(y));
+  });
+  return map;
+}
+
+TEST(SurfaceMaps, TwoChannelsEncodedAsZeroToOneAreRefused) {
+  for (const int channels : {2, 3}) {
+    EXPECT_NO_THROW((void)decode_unit_normals(bumps_xy(channels, 0.0F, 1.0F), 1.0, NormalChannels::xy));
+    for (const float scale : {0.5F, 0.05F, 0.0F}) {  // 0: a flat map
+      const std::string error = test::usage_error(
+          [&] { return decode_unit_normals(bumps_xy(channels, 0.5F, scale), 1.0, NormalChannels::xy); });
+      EXPECT_TRUE(test::says(error, "encoded as 0 to 1")) << scale;
+    }
+    const std::string error =
+        test::usage_error([&] { return decode_unit_normals(bumps_xy(channels, 0.0F, 9.0F), 1.0, NormalChannels::xy); });
+    EXPECT_TRUE(test::says(error, "longer than a unit vector"));
+  }
+  // Slopes of one sign alone are normals as they are.
+  EXPECT_NO_THROW((void)decode_unit_normals(one_texel({0.3F, 0.0F})));
+  EXPECT_NO_THROW((void)decode_unit_normals(one_texel({0.1F, 0.2F})));
+}
+
+TEST(SurfaceMaps, FloatsOfOtherFormatsMustBeEncoded) {
+  Image unit(2, 1, 3), encoded(2, 1, 3);
+  unit.texels = {0.6F, 0.0F, 0.8F, 0.0F, 0.0F, 1.0F};
+  std::ranges::transform(unit.texels, encoded.texels.begin(), [](float value) { return 0.5F * value + 0.5F; });
+  EXPECT_NO_THROW(require_encoded_normals(encoded, NormalChannels::xyz));
+  EXPECT_THROW(require_encoded_normals(unit, NormalChannels::xyz), Error);
+  EXPECT_NO_THROW(require_encoded_normals(bumps_xy(2, 0.5F, 0.5F), NormalChannels::xyz));
+  EXPECT_THROW(require_encoded_normals(bumps_xy(2, 0.0F, 1.0F), NormalChannels::xyz), Error);
+}
+
+TEST(SurfaceMaps, FloatsOutOfRangeAreNamed) {
+  const auto lines = [](Image image, bool floats, std::span<const std::size_t> channels) {
+    return describe_unit_values({.image = std::move(image), .floats = floats}, channels, "gloss.exr");
+  };
+  Image map(2, 1, 3, 0.5F);
+  map.texels = {9.0F, 0.5F, 0.0F, 9.0F, 0.25F, 1.0F};
+  EXPECT_TRUE(lines(map, true, roughness_channels).empty()) << "red does not count";
+  ASSERT_EQ(lines(map, true, color_channels).size(), 1U);
+  EXPECT_TRUE(test::says(lines(map, true, color_channels)[0], "`gloss.exr`: 2 values are outside of 0 to 1 (0 to 9)"));
+  map.texels[1] = std::numeric_limits<float>::quiet_NaN();
+  map.texels[4] = -0.5F;
+  ASSERT_EQ(lines(map, true, roughness_channels).size(), 2U);
+  EXPECT_TRUE(test::says(lines(map, true, roughness_channels)[0], "1 values are not finite"));
+  EXPECT_TRUE(test::says(lines(map, true, roughness_channels)[1], "(-0.5 to 1)"));
+  EXPECT_TRUE(test::says(lines(Image(2, 2, 1, 0.5F), true, roughness_channels).at(0), "the same value"));
+  EXPECT_TRUE(lines(Image(1, 1, 1, 0.5F), true, roughness_channels).empty());
+  EXPECT_TRUE(lines(Image(2, 2, 1, 0.5F), false, roughness_channels).empty()) << "integers are in range";
+}
+
 TEST(SurfaceMaps, RoughnessIsGreenAndMetallicBlue) {
   const Image map = decode_metallic_roughness(one_texel({0.1F, 0.5F, 0.25F}), 0.5F, 0.8F);
   EXPECT_EQ(map.channels, 2);

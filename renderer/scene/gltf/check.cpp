@@ -122,6 +122,7 @@ const std::vector<RuleGroup>& rule_groups() {
         {".{byteLength,byteStride,count}", size, required},
         {".mode", string, required},
         {".filter", string}}},
+      {"textures[].extensions.EXT_texture_webp", {{".source", index, optional, "images"}}},
       {"materials[].extensions.KHR_materials_ior", {{".ior", number}}},
       {"materials[].extensions.KHR_materials_clearcoat",
        {{".{clearcoatFactor,clearcoatRoughnessFactor,clearcoatNormalTexture.scale}", number}}},
@@ -159,6 +160,7 @@ struct Extension {
 
 constexpr auto known_extensions = std::to_array<Extension>({
     {"EXT_meshopt_compression"},
+    {"EXT_texture_webp"},
     {"KHR_draco_mesh_compression"},
     {"KHR_lights_punctual"},
     {"KHR_materials_anisotropy"},
@@ -177,7 +179,6 @@ constexpr auto known_extensions = std::to_array<Extension>({
     {"KHR_materials_specular", Support::layer, "the strength and colour of the specular term"},
     {"KHR_materials_transmission", Support::layer, "transmission"},
     {"KHR_materials_volume", Support::layer, "the volume under the surface"},
-    {"EXT_texture_webp", Support::encoding, "WebP textures"},
     {"KHR_texture_basisu", Support::encoding, "KTX2 textures (Basis Universal)"},
 });
 

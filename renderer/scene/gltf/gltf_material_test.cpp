@@ -1,6 +1,7 @@
 // What the materials and the textures of a well-formed glTF file become, against values worked out by hand.
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
+#include <webp/encode.h>
 
 #include <array>
 #include <cmath>
@@ -50,6 +51,38 @@ TEST(Gltf, MaterialFactorsAndFlags) {
   EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_sheen"));
   EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "emissive"));
   EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_ior"));
+}
+
+// EXT_texture_webp: the WebP, required or not, whatever the fallback; without the extension the source.
+TEST(Gltf, WebpTexturesAreReadBeforeTheirFallback) {
+  GltfBuilder quad = make_quad();
+  const int texture = quad.add_texture(one_colour({255, 0, 0}));
+  const std::array<std::uint8_t, 3> blue{0, 0, 255};
+  std::uint8_t* encoded = nullptr;
+  const std::size_t size = WebPEncodeLosslessRGB(blue.data(), 1, 1, 3, &encoded);
+  const int view = quad.add_view({encoded, size});
+  WebPFree(encoded);
+  const std::size_t webp = quad.json["images"].size();
+  quad.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/webp"}});
+  quad.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}}};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const json fallback = quad.json["textures"][0];
+  json both = fallback, alone;
+  both["extensions"]["EXT_texture_webp"]["source"] = webp;
+  alone["extensions"] = both["extensions"];
+  for (const json& entry : {both, alone}) {
+    for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+      quad.json["textures"][0] = entry;
+      quad.json[list] = {"EXT_texture_webp"};
+      const Model model = load_gltf(quad.write());
+      EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
+      EXPECT_EQ(model.materials.at(0).base_color_map->image.decoded().texels, (std::vector{0.0F, 0.0F, 1.0F, 1.0F}));
+    }
+  }
+  quad.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 7;
+  EXPECT_TRUE(says(test::usage_error([&] { return load_gltf(quad.write()); }), "EXT_texture_webp.source"));
+  quad.json["textures"][0] = fallback;
+  EXPECT_EQ(load_gltf(quad.write()).materials.at(0).base_color_map->image.decoded().texels[0], 1.0F);
 }
 
 TEST(Gltf, MapsAreDecodedAndShared) {

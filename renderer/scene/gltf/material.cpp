@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "renderer/core/error.hpp"
@@ -117,6 +120,14 @@ float mean_rest(const Image& specular, const glm::vec3& factor) {
   return static_cast<float>(sum / static_cast<double>(specular.texel_count()));
 }
 
+// The image of an entry of `textures`: a WebP (EXT_texture_webp) before the fallback; none without either.
+std::optional<std::size_t> texture_image(const Json& texture) {
+  for (const Pointer& source : {Pointer("/extensions/EXT_texture_webp/source"), Pointer("/source")}) {
+    if (texture.contains(source)) return texture[source].get<std::size_t>();
+  }
+  return std::nullopt;
+}
+
 // A texture that a material refers to.
 struct Texture {
   TextureMap map;  // without texels
@@ -166,7 +177,7 @@ class Converter {
   void convert_metallic_roughness(const Json& source, Material& material) {
     const Pointer pbr("/pbrMetallicRoughness");
     material.base_color = color_in(source, pbr / "baseColorFactor", 4);
-    material.base_color_map = map(source, base_color_texture, "color", Transfer::srgb, to_rgba);
+    material.base_color_map = map(source, base_color_texture, "color", Transfer::srgb, color_channels, to_rgba);
     if (material.unlit) return;  // the rest is about light
     material.metallic = factor(source, pbr / "metallicFactor", 1.0);
     material.roughness = factor(source, pbr / "roughnessFactor", 1.0);
@@ -178,6 +189,7 @@ class Converter {
     }
     material.metallic_roughness_map = map(
         source, rough_texture, fmt::format("rough {} {}", material.roughness, material.metallic), Transfer::linear,
+        roughness_channels,
         [&](const Image& image) { return decode_metallic_roughness(image, material.roughness, material.metallic); });
   }
 
@@ -192,13 +204,13 @@ class Converter {
     material.roughness = 1.0F - glossiness;
     const Pointer diffuse = specular_glossiness / "diffuseTexture",
                   specular = specular_glossiness / "specularGlossinessTexture";
-    material.base_color_map = map(source, diffuse, "color", Transfer::srgb, to_rgba);
-    material.specular_map = map(source, specular, "specular", Transfer::srgb, to_rgb);
+    material.base_color_map = map(source, diffuse, "color", Transfer::srgb, color_channels, to_rgba);
+    material.specular_map = map(source, specular, "specular", Transfer::srgb, color_channels, to_rgb);
     if (!material.specular_map) {
       material.base_color *= glm::vec4(glm::vec3(1.0F - largest_channel(material.dielectric_specular)), 1.0F);
       return;
     }
-    material.metallic_roughness_map = map(source, specular, fmt::format("gloss {}", glossiness), Transfer::linear,
+    material.metallic_roughness_map = map(source, specular, fmt::format("gloss {}", glossiness), Transfer::linear, {},
                                           [&](const Image& image) { return decode_glossiness(image, glossiness); });
     if (material.base_color_map && material.base_color_map->coordinates != material.specular_map->coordinates) {
       const float rest = mean_rest(material.specular_map->image.decoded(), material.dielectric_specular);
@@ -222,7 +234,8 @@ class Converter {
     coat.roughness = factor(source, clear_coat / "clearcoatRoughnessFactor", 0.0);
     if (coat.weight == 0.0F) return;
     const auto one_channel = [&](const char* name, int channel, float scale) {
-      return map(source, clear_coat / name, fmt::format("channel {} {}", channel, scale), Transfer::linear,
+      const std::array counted{static_cast<std::size_t>(channel)};
+      return map(source, clear_coat / name, fmt::format("channel {} {}", channel, scale), Transfer::linear, counted,
                  [=](const Image& image) { return decode_factor(image, channel, scale); });
     };
     coat.weight_map = one_channel("clearcoatTexture", 0, coat.weight);
@@ -237,7 +250,7 @@ class Converter {
                           factor(source, anisotropic / "anisotropyRotation", 0.0, -1e6, 1e6)};
     if (anisotropy.strength == 0.0F) return;
     if (const auto found = texture(source, anisotropic / "anisotropyTexture")) {
-      const StretchTexture read = read_stretch(stored(found->image, Transfer::linear));
+      const StretchTexture read = read_stretch(unit_values(found->image, Transfer::linear, color_channels));
       anisotropy.strength *= read.mean.strength;
       anisotropy.rotation += read.mean.rotation;
       if (read.varies) {
@@ -257,13 +270,14 @@ class Converter {
     const auto index = reference["index"].get<std::size_t>();
     const Json& source = document_.json["textures"][index];
     const std::string place = fmt::format("textures[{}]", index);
-    if (!source.contains("source")) {
+    const std::optional<std::size_t> image = texture_image(source);
+    if (!image) {
       const bool basis = source.contains(Pointer("/extensions/KHR_texture_basisu"));
       add_once(warnings_, place + (basis ? " is a KTX2 image (KHR_texture_basisu), which is not read: it is left out"
-                                         : " has no PNG or JPEG image and is left out"));
+                                         : " has no image that is read and is left out"));
       return std::nullopt;
     }
-    Texture out{.map = {}, .image = source["source"].get<std::size_t>()};
+    Texture out{.map = {}, .image = *image};
     TextureCoordinates& coordinates = out.map.coordinates;
     out.map.name = gltf_image_name(document_, out.image);
     coordinates.set = reference.value("texCoord", 0);
@@ -283,10 +297,18 @@ class Converter {
     return out;
   }
 
-  [[nodiscard]] Image stored(std::size_t index, Transfer transfer) const {
+  [[nodiscard]] FileImage stored(std::size_t index, Transfer transfer) const {
     const GltfImage image = gltf_image(document_, index);
-    return image.file.empty() ? read_image(image.bytes, gltf_image_name(document_, index), transfer)
-                              : read_image(image.file, transfer);
+    return image.file.empty() ? read_file_image(image.bytes, gltf_image_name(document_, index), transfer)
+                              : read_file_image(image.file, transfer);
+  }
+
+  // The image of values that mean 0 to 1, in some of its channels.
+  [[nodiscard]] Image unit_values(std::size_t index, Transfer transfer, std::span<const std::size_t> channels) {
+    FileImage file = stored(index, transfer);
+    for (std::string& line : describe_unit_values(file, channels, gltf_image_name(document_, index)))
+      add_once(warnings_, std::move(line));
+    return std::move(file.image);
   }
 
   // The texels of a use of an image, made once.
@@ -299,11 +321,11 @@ class Converter {
 
   template <class Decode>
   std::optional<TextureMap> map(const Json& material, const Pointer& member, const std::string& use, Transfer transfer,
-                                const Decode& decode) {
+                                std::span<const std::size_t> channels, const Decode& decode) {
     std::optional<Texture> found = texture(material, member);
     if (!found) return std::nullopt;
     found->map.image = cached(fmt::format("{} {}", found->image, use),
-                              [&] { return MapTexels::packed(decode(stored(found->image, transfer))); });
+                              [&] { return MapTexels::packed(decode(unit_values(found->image, transfer, channels))); });
     return std::move(found->map);
   }
 
@@ -314,7 +336,9 @@ class Converter {
     found->map.image = cached(fmt::format("{} normal {}", found->image, scale), [&] {
       const auto decode = [scale](const Image& texels) { return decode_normal_map(texels, scale); };
       std::vector<std::string> faults;
-      MapTexels texels = stored_normals(stored(found->image, Transfer::linear), decode, found->map.name, faults);
+      const FileImage file = stored(found->image, Transfer::linear);
+      if (file.floats) require_encoded_normals(file.image, NormalChannels::xyz);
+      MapTexels texels = stored_normals(file, decode, found->map.name, faults);
       for (std::string& line : faults) add_once(warnings_, std::move(line));
       return texels;
     });
@@ -325,8 +349,8 @@ class Converter {
   MapTexels diffuse_beside(const std::optional<Texture>& diffuse, std::size_t specular, const glm::vec3& factor) {
     const std::string images = diffuse ? fmt::format("{} {}", diffuse->image, specular) : fmt::format("{}", specular);
     return cached(fmt::format("beside {} {} {} {}", images, factor.r, factor.g, factor.b), [&] {
-      const Image color = diffuse ? to_rgba(stored(diffuse->image, Transfer::srgb)) : Image(1, 1, 4, 1.0F);
-      const Image reflected = to_rgb(stored(specular, Transfer::srgb));
+      const Image color = diffuse ? to_rgba(stored(diffuse->image, Transfer::srgb).image) : Image(1, 1, 4, 1.0F);
+      const Image reflected = to_rgb(stored(specular, Transfer::srgb).image);
       Image out(std::max(color.width, reflected.width), std::max(color.height, reflected.height), 4);
       for_each_texel(out, [&](int x, int y) {
         const auto albedo = texel_under(color, x, y, out.width, out.height);
@@ -366,10 +390,9 @@ std::uint64_t decoded_map_bytes(const GltfDocument& document) {
     for (const auto& [texture, name, channels] : uses) {
       if (!material.contains(texture)) continue;
       const Json& source = document.json["textures"][material[texture]["index"].get<std::size_t>()];
-      if (!source.contains("source")) continue;
-      const auto index = source["source"].get<std::size_t>();
-      if (!counted.emplace(index, name).second) continue;
-      const GltfImage image = gltf_image(document, index);
+      const std::optional<std::size_t> index = texture_image(source);
+      if (!index || !counted.emplace(*index, name).second) continue;
+      const GltfImage image = gltf_image(document, *index);
       const std::uint64_t texels = image.file.empty() ? texels_in_header(image.bytes) : texels_in_header(image.file);
       bytes += texels * channels * sizeof(float);
     }

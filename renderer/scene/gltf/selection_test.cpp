@@ -162,11 +162,8 @@ TEST(GltfExtensions, LayersAreLeftOutWithAWarningEvenWhereRequired) {
 
 TEST(GltfExtensions, EncodingsAreNamedAsSuch) {
   GltfBuilder file = make_quad();
-  file.json["extensionsRequired"] = {"KHR_texture_basisu", "EXT_texture_webp"};
-  const std::string message = usage_error([&] { return load(file); });
-  for (const char* words : {"KHR_texture_basisu (KTX2 textures", "EXT_texture_webp (WebP textures)"}) {
-    EXPECT_TRUE(says(message, words));
-  }
+  file.json["extensionsRequired"] = {"KHR_texture_basisu"};
+  EXPECT_TRUE(says(usage_error([&] { return load(file); }), "KHR_texture_basisu (KTX2 textures"));
 }
 
 TEST(GltfExtensions, KtxImagesAreNamedAsSuch) {

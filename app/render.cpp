@@ -4,6 +4,7 @@
 #include "experiments/studies/edit.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/stage.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
@@ -51,7 +52,7 @@ Image render_picture(const Stage& stage, double distance, const RunSettings& run
 }
 
 void save_picture(const std::filesystem::path& path, const Image& picture, const RunSettings& run, const Scene& scene) {
-  if (path.extension() == ".exr") return write_exr(path, picture);
+  if (lower_extension(path) == ".exr") return write_exr(path, picture);
   write_png(path, to_display(picture, choose_exposure(run.view.exposure, scene, picture).factor));
 }
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <utility>
 
 #include "app/subcommand.hpp"
 #include "experiments/studies/score.hpp"
@@ -24,8 +26,8 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* score_examples =
-    R"(IMAGE is an EXR or Radiance HDR of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours (sRGB),
-for which measures of radiance are left out. Two images are scored separately, then compared pixel by pixel.
+    R"(IMAGE is an EXR, Radiance HDR or float TIFF of linear radiance, or a PNG, JPEG, TIFF, BMP or WebP of displayed colours
+(sRGB unless it declares others), for which measures of radiance are left out. Two images are scored separately, then compared pixel by pixel.
 
 Examples:
   footprint score engine.exr --reference model.gltf --spp 256
@@ -99,7 +101,7 @@ Reference rendered_reference(const ScoreArguments& arguments) {
     throw Error(ErrorKind::usage, "--standard-error", "the reference of a scene has its own", "leave it out");
   RunSettings run = arguments.settings();
   run.scene = arguments.reference;
-  const Image first = read_image(arguments.pictures.front(), Transfer::linear);
+  const Image first = read_image(arguments.pictures.front(), Transfer::declared);
   run.view.size = {first.width, first.height};
   ProgressDisplay display(progress_style(arguments.quiet));
   ProgressParts parts(display.callback(), 3);
@@ -121,6 +123,10 @@ Image read_standard_error(const std::string& file) {
               "give the RGB standard error that `footprint compare` writes next to its reference");
 }
 
+void write_notes(const ScoredPicture& picture) {
+  for (const std::string& note : picture.notes) write_message(fmt::format("warning: {}: {}", picture.name, note));
+}
+
 // An image. If `footprint compare` wrote it, exposure and standard error are those of its results.json unless they are
 // given, so that equal images have equal errors in both.
 Reference given_reference(const ScoreArguments& arguments) {
@@ -131,7 +137,9 @@ Reference given_reference(const ScoreArguments& arguments) {
     throw Error(ErrorKind::usage, of_scenes.front(), fmt::format("{} is an image, not a scene", arguments.reference),
                 "use it with a scene as the reference");
   }
-  Reference out{read_reference(arguments.reference), {}, 1.0F};
+  ScoredPicture read = read_reference(arguments.reference);
+  write_notes(read);
+  Reference out{std::move(read.radiance), {}, 1.0F};
   const std::optional<ListedReference> listed = listed_reference(arguments.reference);
   Scene scene;
   if (listed) scene.exposure = listed->exposure;
@@ -177,10 +185,13 @@ Scores take_scores(const ScoreArguments& arguments) {
     out.unresolved = leave_out_unresolved(reference.picture, reference.standard_error, reference.exposure);
   if (!arguments.mask.empty()) {
     reference.picture =
-        masked(std::move(reference.picture), read_image(arguments.mask, Transfer::linear), arguments.mask);
+        masked(std::move(reference.picture), read_image(arguments.mask, Transfer::declared), arguments.mask);
   }
   std::vector<ScoredPicture> pictures;
-  for (const std::string& file : arguments.pictures) pictures.push_back(read_scored(file, out.exposure));
+  for (const std::string& file : arguments.pictures) {
+    pictures.push_back(read_scored(file, out.exposure));
+    write_notes(pictures.back());
+  }
   for (const ScoredPicture& picture : pictures) {
     out.pictures.push_back(score_picture(picture, reference.picture, out.exposure, arguments.pixels_per_degree));
     out.pictures.back().rejected = tested(arguments, picture, reference);
@@ -301,31 +312,44 @@ void write_page(const RunFolder& folder, const Scores& scores) {
   folder.write_text("index.html", [&] { return page_html(page); });
 }
 
-// The images of a folder that have a known format, by their paths in it.
-std::vector<fs::path> images_in(const fs::path& folder) {
-  std::vector<fs::path> images;
+// Sorts formats of linear radiance before those of displayed colours, EXR first.
+std::size_t format_rank(const fs::path& image) {
+  constexpr std::array<std::string_view, 6> of_radiance{".exr", ".hdr", ".pic", ".rgbe", ".tif", ".tiff"};
+  return static_cast<std::size_t>(std::ranges::find(of_radiance, lower_extension(image)) - of_radiance.begin());
+}
+
+fs::path without_extension(fs::path image) { return image.replace_extension(); }
+
+// The images of a folder that have a known format, by their paths in it without extension. Of an image in several
+// formats the first by format_rank counts.
+std::map<fs::path, fs::path> images_in(const fs::path& folder) {
+  std::map<fs::path, fs::path> images;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code ignored;
-    if (entry->is_regular_file(ignored) && names_an_image(entry->path()))
-      images.push_back(entry->path().lexically_relative(folder));
+    if (!entry->is_regular_file(ignored) || !names_an_image(entry->path())) continue;
+    const fs::path image = entry->path().lexically_relative(folder);
+    fs::path& chosen = images.try_emplace(without_extension(image), image).first->second;
+    if (std::pair(format_rank(image), image) < std::pair(format_rank(chosen), chosen)) chosen = image;
   }
   if (error) throw Error(ErrorKind::usage, folder.string(), error.message(), "give a folder that can be read");
-  std::ranges::sort(images);
   return images;
 }
 
-// One score per image of a reference folder, against the image of the same path in the other folder.
+// One score per image of a reference folder, against the image of the same path in the other folder: in the same format
+// if there is one, else in any.
 std::vector<ScoreArguments> folder_scores(const ScoreArguments& arguments) {
   const fs::path pictures = arguments.pictures.front(), references = arguments.reference;
+  const std::map<fs::path, fs::path> candidates = images_in(pictures);
   std::vector<ScoreArguments> scores;
-  for (const fs::path& image : images_in(references)) {
-    if (!fs::is_regular_file(pictures / image))
+  for (const auto& [name, image] : images_in(references)) {
+    const auto candidate = candidates.find(name);
+    if (candidate == candidates.end())
       throw Error(ErrorKind::usage, (pictures / image).string(),
                   fmt::format("no such file, but {} has one", references.string()),
                   "give folders with images of the same names");
     ScoreArguments& one = scores.emplace_back(arguments);
-    one.pictures = {(pictures / image).string()};
+    one.pictures = {(pictures / (fs::is_regular_file(pictures / image) ? image : candidate->second)).string()};
     one.reference = (references / image).string();
   }
   if (!scores.empty()) return scores;

@@ -7,6 +7,7 @@
 
 #include "app/folders.hpp"
 #include "renderer/core/disk_cache.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/false_color.hpp"
 
@@ -94,7 +95,7 @@ void throw_first(std::initializer_list<std::optional<Error>> errors) {
 
 std::filesystem::path image_path(const std::string& output, const std::string& hint) {
   std::filesystem::path path = output;
-  if (path.extension() == ".exr" || path.extension() == ".png") return path;
+  if (lower_extension(path) == ".exr" || lower_extension(path) == ".png") return path;
   throw Error(ErrorKind::usage, "--output", fmt::format("`{}` is not an image file", output), hint);
 }
 

@@ -16,8 +16,6 @@
 namespace footprint {
 namespace {
 
-bool stores_radiance(const std::string& file) { return is_exr(file) || lower_extension(file) == ".hdr"; }
-
 Image with_coverage(Image image, const std::string& file) {
   if (image.channels == 4) return image;
   if (image.channels != 3) {
@@ -27,6 +25,15 @@ Image with_coverage(Image image, const std::string& file) {
   Image out(image.width, image.height, 4, 1.0F);
   for (std::size_t i = 0; i < out.texel_count(); ++i) std::copy_n(&image.texels[3 * i], 3, &out.texels[4 * i]);
   return out;
+}
+
+// An image whose alpha is 0 everywhere would count as black, whatever its colours.
+void require_covered(const Image& image, const std::string& file) {
+  for (std::size_t i = 3; i < image.texels.size(); i += 4) {
+    if (image.texels[i] > 0.0F) return;
+  }
+  throw Error(ErrorKind::usage, file, "its alpha is 0 everywhere, so it covers no pixel",
+              "store coverage in alpha (A), or leave alpha out");
 }
 
 // The object pixels in one row: a background would dominate a median.
@@ -170,16 +177,19 @@ Image shown(const Image& radiance, float exposure) {
 }
 
 ScoredPicture read_scored(const std::string& file, float exposure) {
-  ScoredPicture out{file, with_coverage(read_image(file, Transfer::srgb), file), !stores_radiance(file)};
+  FileImage read = read_file_image(file, Transfer::declared);
+  ScoredPicture out{file, with_coverage(std::move(read.image), file), !read.floats, std::move(read.notes)};
+  require_covered(out.radiance, file);
   if (!out.displayed) return out;
   for (std::size_t i = 0; i < out.radiance.texels.size(); ++i)
     if (i % 4 < 3) out.radiance.texels[i] /= exposure;
   return out;
 }
 
-Image read_reference(const std::string& file) {
-  Image image = with_coverage(read_image(file, Transfer::srgb), file);
-  if (stores_radiance(file)) return image;
+ScoredPicture read_reference(const std::string& file) {
+  FileImage read = read_file_image(file, Transfer::declared);
+  ScoredPicture out{file, with_coverage(std::move(read.image), file), false, std::move(read.notes)};
+  if (read.floats) return out;
   throw Error(ErrorKind::usage, file, "it stores displayed colours, but a reference needs linear radiance",
               "give an EXR, as `footprint render SCENE --method reference -o reference.exr` writes it");
 }

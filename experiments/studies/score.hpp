@@ -19,17 +19,19 @@ namespace footprint {
 
 /// An image to be scored.
 struct ScoredPicture {
-  std::string name;        ///< as given
-  Image radiance;          ///< RGBA, linear; displayed colours are divided by the exposure
-  bool displayed = false;  ///< read from a format of displayed colours, which clip at white
+  std::string name;                  ///< as given
+  Image radiance;                    ///< RGBA, linear; displayed colours are divided by the exposure
+  bool displayed = false;            ///< its file stores displayed colours, which clip at white
+  std::vector<std::string> notes{};  ///< what of its file is left out, one line each
 };
 
-/// Reads an image: EXR and Radiance HDR store linear radiance, other formats displayed colours in sRGB for a display of
-/// `exposure`. Three channels are covered everywhere. Errors (usage): those of read_image; other than 3 or 4 channels.
+/// Reads an image: files of floats store linear radiance, others displayed colours for a display of `exposure`, both as
+/// they declare (Transfer::declared). Three channels are covered everywhere. Errors (usage): those of read_file_image;
+/// other than 3 or 4 channels; alpha is 0 everywhere.
 [[nodiscard]] ScoredPicture read_scored(const std::string& file, float exposure);
 
-/// Reads a reference, which stores linear radiance. Errors (usage): as read_scored; a format of displayed colours.
-[[nodiscard]] Image read_reference(const std::string& file);
+/// Reads a reference, which stores linear radiance. Errors (usage): as read_scored, but for alpha; displayed colours.
+[[nodiscard]] ScoredPicture read_reference(const std::string& file);
 
 /// The reference without the pixels at which `mask` (any channels, the size of the reference) is black: they are no
 /// longer object pixels. Errors (usage): sizes differ; no object pixel is left.

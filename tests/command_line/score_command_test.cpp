@@ -14,6 +14,10 @@ std::string grey_hdr(int height, char mantissa) {
   return text;
 }
 
+// Two pixels, 0.5 above 0.25, stored downwards and upwards; the exposure of the second is 2.
+std::string turned_hdr() { return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n@@@\x81   \x81"; }
+std::string turned_back_hdr() { return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n+Y 2 +X 1\n@@@\x81@@@\x82"; }
+
 std::string grey_png(char value) {
   const std::string row = std::string(1, '\0') + std::string(6, value);
   return png_text(2, 2, row + row);
@@ -33,6 +37,11 @@ Case row(const std::string& name, std::vector<std::string> arguments) {
                     {"golden/near/one.hdr", grey_hdr(2, 0x40)},
                     {"golden/two.hdr", grey_hdr(2, 0x40)},
                     {"golden/notes.txt", "text"},
+                    {"pairs/view.hdr", grey_hdr(2, 0x40)},
+                    {"pairs/view.png", grey_png('\0')},
+                    {"others/view.PNG", grey_png('\xff')},
+                    {"turned.hdr", turned_hdr()},
+                    {"turned_back.hdr", turned_back_hdr()},
                     {"nightly/near/one.hdr", grey_hdr(2, 0x40)},
                     {"nightly/two.hdr", grey_hdr(2, 0x30)},
                     {"text.png", "text"}}};
@@ -77,6 +86,9 @@ std::vector<Case> good_scores() {
       good("ScoreAgainstAScene",
            {"{}/darker.hdr", "{}/white.png", "--reference", "v_grooves", "--spp", "16", "--distance", "0.2"},
            {"pixels, exposure", "darker.hdr", "white.png", "three standard errors"}),
+      good("ScoreOfFoldersByStem", {"{}/others", "--reference", "{}/pairs", "--exposure", "2"},
+           {"view.PNG", "|     0 |", "n/a"}),
+      good("ScoreOfTurnedPixels", {"{}/turned_back.hdr", "--reference", "{}/turned.hdr"}, {"|     0 |", "inf"}),
       good("ScoreUnderAMask", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--mask", "{}/white.png"},
            {"4 pixels"}),
   };

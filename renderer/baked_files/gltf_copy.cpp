@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
@@ -13,6 +14,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/gltf/document.hpp"
+#include "renderer/scene/gltf/material.hpp"
 
 namespace footprint {
 namespace {
@@ -34,6 +36,7 @@ void move_beside(Json& object, const std::string& name, std::span<const std::uin
 }
 
 const char* image_extension(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > 11 && std::ranges::equal(bytes.subspan(8, 4), std::string_view("WEBP"))) return "webp";
   return bytes.size() > 2 && bytes[0] == 0xFF && bytes[1] == 0xD8 ? "jpg" : "png";
 }
 
@@ -52,25 +55,14 @@ void move_resources(Json& copy, const GltfDocument& document, const std::filesys
   }
 }
 
-std::string loader_name(const Json& material, std::size_t index) {
-  const std::string name = material.value("name", "");
-  return name.empty() ? fmt::format("material {}", index) : name;
-}
-
-Json& material_called(Json& document, const std::string& name, const std::string& source) {
-  Json* found = nullptr;
-  for (std::size_t i = 0; document.contains("materials") && i < document["materials"].size(); ++i) {
-    if (loader_name(document["materials"][i], i) != name) continue;
-    if (found != nullptr) {
-      throw Error(ErrorKind::usage, source, fmt::format("two materials are called `{}`", name),
-                  "give them names of their own");
-    }
-    found = &document["materials"][i];
-  }
-  if (found == nullptr)
+// names: of all materials, as the loader gives them.
+Json& material_called(Json& document, const std::string& name, const std::vector<std::string>& names,
+                      const std::string& source) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
     throw Error(ErrorKind::usage, source, fmt::format("no material is called `{}`", name),
                 "name one that the file has");
-  return *found;
+  return document["materials"][static_cast<std::size_t>(found - names.begin())];
 }
 
 PrefilteredTexture four_channels(std::vector<Image> chain) {
@@ -109,9 +101,10 @@ Json looked_up_as(const Json& normal, std::size_t texture) {
   return info;
 }
 
-void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, const std::string& source,
-             const std::filesystem::path& folder) {
-  const Json& old = material_called(document, maps.material, source);
+// names: of all materials of the document.
+void replace(Json& document, const std::vector<std::string>& names, const ReplacedMaps& maps, const std::string& stem,
+             const std::string& source, const std::filesystem::path& folder) {
+  const Json& old = material_called(document, maps.material, names, source);
   if (old.contains("extensions") && old["extensions"].contains("KHR_materials_pbrSpecularGlossiness")) {
     throw Error(ErrorKind::usage, source,
                 fmt::format("material `{}` stores its roughness as glossiness (KHR_materials_pbrSpecularGlossiness)",
@@ -132,7 +125,7 @@ void replace(Json& document, const ReplacedMaps& maps, const std::string& stem, 
   const std::size_t normal_texture = add_texture(document, stem + ".normal", maps.normal, sampler, folder);
   const std::size_t rough_texture =
       add_texture(document, stem + ".metallic_roughness", maps.rough_metallic, sampler, folder);
-  Json& material = material_called(document, maps.material, source);
+  Json& material = material_called(document, maps.material, names, source);
   if (!maps.anisotropy.empty()) {
     const std::size_t texture = add_texture(document, stem + ".anisotropy", maps.anisotropy, sampler, folder);
     use_extension(document, "KHR_materials_anisotropy");
@@ -157,7 +150,8 @@ std::string write_gltf_copy(const std::filesystem::path& source, std::span<const
   std::vector<std::string> names;
   for (const ReplacedMaps& each : maps) names.push_back(each.material);
   const std::vector<std::string> stems = distinct_stems(names);
-  for (std::size_t i = 0; i < maps.size(); ++i) replace(json, maps[i], stems[i], source.string(), folder);
+  const std::vector<std::string> materials = gltf_material_names(document);
+  for (std::size_t i = 0; i < maps.size(); ++i) replace(json, materials, maps[i], stems[i], source.string(), folder);
   const std::string name = file_stem(source.stem().string()) + ".gltf";
   write_file_atomically(folder / name, json.dump(2) + "\n");
   return name;

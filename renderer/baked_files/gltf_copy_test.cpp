@@ -179,15 +179,21 @@ TEST(GltfCopy, RefusesMaterialsThatStoreGlossiness) {
                  "material `bumpy` stores its roughness as glossiness"));
 }
 
-TEST(GltfCopy, RefusesNamesThatAreNotOneMaterials) {
+TEST(GltfCopy, TellsMaterialsOfOneNameApart) {
   GltfBuilder twice = bumpy();
   twice.json["materials"].push_back(twice.json["materials"][0]);
-  const fs::path source = twice.write();
-  const ReplacedMaps maps = smaller_maps(false);
-  EXPECT_TRUE(
-      test::says(test::usage_error([&] { return write_gltf_copy(source, std::span(&maps, 1), test::fresh_folder()); }),
-                 "two materials are called `bumpy`"));
-  ReplacedMaps other = maps;
+  const fs::path source = twice.write(), folder = test::fresh_folder();
+  ReplacedMaps maps = smaller_maps(false);
+  maps.material = "bumpy [1]";
+  const nlohmann::json json =
+      nlohmann::json::parse(std::ifstream(folder / write_gltf_copy(source, std::span(&maps, 1), folder)));
+  EXPECT_EQ(json["materials"][0], twice.json["materials"][0]);
+  EXPECT_NE(json["materials"][1], twice.json["materials"][1]);
+}
+
+TEST(GltfCopy, RefusesNamesThatAreNoMaterials) {
+  const fs::path source = bumpy().write();
+  ReplacedMaps other = smaller_maps(false);
   other.material = "smooth";
   EXPECT_TRUE(
       test::says(test::usage_error([&] { return write_gltf_copy(source, std::span(&other, 1), test::fresh_folder()); }),

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "renderer/core/error.hpp"
@@ -48,6 +50,20 @@ std::string file_stem(const std::string& text) {
   std::ranges::replace_if(
       stem, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '.' && c != '_'; }, '_');
   return stem;
+}
+
+std::vector<std::string> told_apart(std::vector<std::string> names) {
+  std::map<std::string, int> counts;
+  for (const std::string& name : names) ++counts[name];
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (counts[names[i]] == 1) continue;
+    std::string name = names[i];
+    do name += fmt::format(" [{}]", i);
+    while (counts.contains(name));  // as a name of the input, or of one before
+    counts[name] = 1;
+    names[i] = std::move(name);
+  }
+  return names;
 }
 
 std::vector<std::string> distinct_stems(const std::vector<std::string>& names) {

@@ -76,6 +76,10 @@ template <class Value, std::size_t count>
 /// A path's extension in lower case, with its dot.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
+/// The names, of which those that occur more than once are followed by their index: "steel [0]", "steel [3]". All are
+/// distinct.
+[[nodiscard]] std::vector<std::string> told_apart(std::vector<std::string> names);
+
 /// A part of a file name: letters, digits, '-', '.' and '_' of the text, and '_' for other characters.
 [[nodiscard]] std::string file_stem(const std::string& text);
 

@@ -31,6 +31,14 @@ void add(Model& model, Model part) {
   for (std::string& warning : part.warnings) add_once(model.warnings, std::move(warning));
 }
 
+// Materials of several parts may have the same name.
+void tell_apart(std::vector<Material>& materials) {
+  std::vector<std::string> names;
+  for (const Material& material : materials) names.push_back(material.name);
+  names = told_apart(std::move(names));
+  for (std::size_t i = 0; i < materials.size(); ++i) materials[i].name = std::move(names[i]);
+}
+
 Bounds bounds_of(const std::vector<Mesh>& meshes) {
   Bounds bounds{meshes.front().vertices.front().position, meshes.front().vertices.front().position};
   for (const Mesh& mesh : meshes) {
@@ -88,6 +96,7 @@ void set_lights(const SceneSettings& settings, const std::vector<Light>& own, Sc
 Scene assemble_scene(const SceneSettings& settings, const std::optional<Bounds>& bounds) {
   Model model;
   for (const PartSettings& part : settings.parts) add(model, load_part(part));
+  tell_apart(model.materials);
   Scene scene = settings.scene;
   if (model.meshes.empty()) {
     throw Error(ErrorKind::usage, scene.source, "the scene has no triangle",

@@ -102,6 +102,8 @@ clear_coat = { weight = 0 }
 plane = {}
 )");
   ASSERT_EQ(scene.materials.size(), 4U);
+  EXPECT_EQ(scene.materials[0].name, "plane [0]");
+  EXPECT_EQ(scene.materials[3].name, "plane [3]");
   ASSERT_TRUE(scene.materials[0].coat && scene.materials[1].coat);
   EXPECT_EQ(scene.materials[0].coat->weight, 0.5F);
   EXPECT_EQ(scene.materials[0].coat->roughness, 0.25F);

@@ -53,6 +53,19 @@ TEST(Gltf, MaterialFactorsAndFlags) {
   EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_ior"));
 }
 
+TEST(Gltf, MaterialsOfOneNameAreToldApart) {
+  GltfBuilder quad = make_quad();
+  quad.json["materials"] = {{{"name", "steel"}}, json::object(), {{"name", "steel"}}, {{"name", "material 1"}}};
+  json& primitives = quad.json["meshes"][0]["primitives"];
+  for (int material = 3; material >= 0; --material) {
+    if (material < 3) primitives.push_back(primitives[0]);
+    primitives.back()["material"] = material;
+  }
+  std::vector<std::string> names;
+  for (const Material& material : load_gltf(quad.write()).materials) names.push_back(material.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"material 1 [3]", "steel [2]", "material 1 [1]", "steel [0]"}));
+}
+
 // EXT_texture_webp: the WebP, required or not, whatever the fallback; without the extension the source.
 TEST(Gltf, WebpTexturesAreReadBeforeTheirFallback) {
   GltfBuilder quad = make_quad();

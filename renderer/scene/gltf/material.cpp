@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/core/names.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
 #include "renderer/scene/model.hpp"
@@ -142,8 +143,7 @@ class Converter {
   [[nodiscard]] Material convert(int index) {
     const Json& source = document_.json["materials"][static_cast<std::size_t>(index)];
     Material material;
-    material.name = source.value("name", "");
-    if (material.name.empty()) material.name = fmt::format("material {}", index);
+    material.name = gltf_material_names(document_).at(static_cast<std::size_t>(index));
     material.double_sided = source.value("doubleSided", false);
     convert_alpha(source, material);
     material.unlit = source.contains(Pointer("/extensions/KHR_materials_unlit"));
@@ -369,6 +369,15 @@ class Converter {
 };
 
 }  // namespace
+
+std::vector<std::string> gltf_material_names(const GltfDocument& document) {
+  std::vector<std::string> names;
+  for (const Json& material : document.json.value("materials", Json::array())) {
+    const std::string name = material.value("name", "");
+    names.push_back(name.empty() ? fmt::format("material {}", names.size()) : name);
+  }
+  return told_apart(std::move(names));
+}
 
 std::uint64_t decoded_map_bytes(const GltfDocument& document) {
   struct Use {

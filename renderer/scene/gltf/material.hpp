@@ -11,6 +11,9 @@
 
 namespace footprint {
 
+/// A name per entry of `materials`, all distinct: its own, or "material 3" without one (told_apart).
+[[nodiscard]] std::vector<std::string> gltf_material_names(const GltfDocument& document);
+
 /// The decoded bytes of all materials' maps, by the headers of their images.
 [[nodiscard]] std::uint64_t decoded_map_bytes(const GltfDocument& document);
 

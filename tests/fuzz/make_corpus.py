@@ -78,8 +78,11 @@ def pictures(program, folder, scratch):
     for name in ("map.exr", "map.png", "map.hdr", "map.jpg", "map.tif", "map.tga", "map.bmp", "map.webp"):
         subprocess.run(["oiiotool", surface, "--ch", "R,G,B", "--resize", "8x4", "-o", folder / "picture" / name],
                        check=False, capture_output=True)
-    for name in ("map.exr", "map.hdr"):
-        shutil.copy(folder / "picture" / name, folder / "environment" / name)
+    data = (folder / "picture" / "map.hdr").read_bytes().partition(b"\n\n")[2].partition(b"\n")[2]
+    head = b"#?RADIANCE\nEXPOSURE=2\nCOLORCORR=1 2 4\nPRIMARIES=.7 .3 .2 .7 .1 .1 .3 .3\nFORMAT=32-bit_rle_xyze\n\n"
+    (folder / "picture" / "declared.hdr").write_bytes(head + b"+X 4 +Y 8\n" + data)
+    for picture in (folder / "picture").iterdir():  # as data there, as pictures here
+        shutil.copy(picture, folder / "environment" / picture.name)
 
 
 SMALL_EXPERIMENT = """[experiment]

@@ -14,6 +14,7 @@
 #include "renderer/core/numbers.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
+#include "renderer/scene/tangents.hpp"
 
 namespace footprint {
 namespace {

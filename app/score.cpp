@@ -262,7 +262,7 @@ void write_pictures(const std::filesystem::path& folder, const Scores& scores) {
 
 PageImage page_image(const fs::path& folder, const std::string& name, const std::string& stem, const Image& radiance,
                      float exposure) {
-  write_png(folder / (stem + ".png"), to_display(radiance, exposure));
+  write_png(folder / (stem + ".png"), to_display(finite_part(radiance), exposure));  // scores count the other pixels
   write_pixel_script(folder / (stem + "_values.js"), radiance);
   return {.name = name, .png = stem + ".png", .values = stem + "_values.js"};
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
@@ -118,12 +119,15 @@ void read_colors(Builder& builder) {
   builder.warn(replaced, "vertex colours that are not finite were set to white");
 }
 
-void check_map_coordinates(const Builder& builder, const Material& material, bool has_set0, bool has_set1) {
+/// Reads the sets that the maps of a material use as the two of its vertices.
+void read_map_coordinates(Builder& builder, const Material& material, const UvSets& sets) {
+  const std::array<bool, 2> has{read_texture_coordinates(builder, fmt::format("TEXCOORD_{}", sets[0]), &Vertex::uv0),
+                                read_texture_coordinates(builder, fmt::format("TEXCOORD_{}", sets[1]), &Vertex::uv1)};
   for (const TextureMap* map : maps_of(material)) {
-    const int set = map->coordinates.set;
-    if (set == 0 ? has_set0 : has_set1) continue;
+    const auto set = static_cast<std::size_t>(map->coordinates.set);
+    if (has.at(set)) continue;
     add_once(builder.warnings, fmt::format("{}: no TEXCOORD_{} for the maps of `{}`, its maps show one texel",
-                                           builder.place, set, material.name));
+                                           builder.place, sets.at(set), material.name));
   }
 }
 
@@ -216,6 +220,30 @@ class Movement {
   bool mirrored_;
 };
 
+/// Where used vertices of a primitive are in the world.
+WideBounds triangle_bounds(Builder& builder, const MeshPose& pose) {
+  constexpr double farthest = 1e15;  // metres: squares of it still fit a float
+  WideBounds bounds;
+  if (builder.primitive.value("mode", mode_triangles) < mode_triangles) return bounds;
+  read_positions(builder);
+  if (builder.vertices.empty()) return bounds;
+  morph(builder, pose.weights);
+  read_triangles(builder);
+  const Movement movement(pose, pose.joints.empty() ? std::vector<glm::dmat4>() : skinned(builder, pose.joints));
+  std::vector<bool> seen(builder.vertices.size(), false);
+  for (const std::uint32_t index : builder.indices) {
+    if (seen[index]) continue;
+    seen[index] = true;
+    const glm::dvec3 at{movement.matrix(index) * glm::dvec4{glm::dvec3{builder.vertices[index].position}, 1.0}};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(at[axis]) <= farthest))
+        refuse_gltf(fmt::format("vertex {}", index), fmt::format("is beyond {:g} m in the world", farthest));
+    }
+    bounds.add(at);
+  }
+  return bounds;
+}
+
 /// Into the world. Normals go by the inverse transpose, which is the cofactor matrix over the determinant.
 void move(Vertex& vertex, const glm::dmat4& world, bool mirrored) {
   const glm::dmat3 linear{world};
@@ -233,18 +261,12 @@ void move(Vertex& vertex, const glm::dmat4& world, bool mirrored) {
 }
 
 void move_vertices(Builder& builder, const Movement& movement, const std::vector<std::uint32_t>& file_vertices) {
-  constexpr float farthest = 1e15F;  // squares of it still fit a float
   std::vector<bool> moved(builder.vertices.size(), false);
   for (std::size_t corner = 0; corner < builder.indices.size(); ++corner) {
     const std::uint32_t index = builder.indices[corner], file_vertex = file_vertices[corner];
     if (moved[index]) continue;
     moved[index] = true;
-    Vertex& vertex = builder.vertices[index];
-    move(vertex, movement.matrix(file_vertex), movement.is_mirrored(file_vertex));
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(std::abs(vertex.position[axis]) <= farthest))
-        refuse_gltf(fmt::format("vertex {}", file_vertex), fmt::format("is beyond {:g} m in the world", farthest));
-    }
+    move(builder.vertices[index], movement.matrix(file_vertex), movement.is_mirrored(file_vertex));
   }
 }
 
@@ -298,7 +320,7 @@ void place(Builder& builder, const MeshPose& pose, const Material& material) {
   complete_frames(builder);
 }
 
-std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Material& material) {
+std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Material& material, const UvSets& sets) {
   const int mode = builder.primitive.value("mode", mode_triangles);
   if (mode > mode_fan) refuse_gltf("mode", fmt::format("{} is none of 0 to 6", mode));
   if (mode < mode_triangles) {
@@ -312,9 +334,7 @@ std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Materi
   }
   read_frames(builder);
   morph(builder, pose.weights);
-  const bool has_set0 = read_texture_coordinates(builder, "TEXCOORD_0", &Vertex::uv0);
-  const bool has_set1 = read_texture_coordinates(builder, "TEXCOORD_1", &Vertex::uv1);
-  check_map_coordinates(builder, material, has_set0, has_set1);
+  read_map_coordinates(builder, material, sets);
   read_colors(builder);
   if (builder.primitive["attributes"].contains("COLOR_1")) {
     add_once(builder.warnings, "vertex colours beyond the first set are left out");
@@ -325,19 +345,37 @@ std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Materi
   return Mesh{builder.place, std::move(builder.vertices), std::move(builder.indices), 0};
 }
 
-}  // namespace
-
-std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
-                                      const MeshPose& pose, const Material& material,
-                                      std::vector<std::string>& warnings) {
+Builder builder_of(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
+                   std::vector<std::string>& warnings) {
   const Json& mesh = document.json["meshes"][mesh_index];
-  Builder builder{document, mesh["primitives"][primitive_index], warnings,
-                  fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.value("name", ""), primitive_index)};
+  return {document, mesh["primitives"][primitive_index], warnings,
+          fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.value("name", ""), primitive_index)};
+}
+
+/// Adds the place of a primitive to the errors of an action on it.
+template <class Action>
+auto within_place(const Builder& builder, const Action& action) {
   try {
-    return convert(builder, pose, material);
+    return action();
   } catch (const Error& error) {
     throw error.within(builder.place);
   }
+}
+
+}  // namespace
+
+WideBounds primitive_bounds(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
+                            const MeshPose& pose) {
+  std::vector<std::string> told_by_conversion;
+  Builder builder = builder_of(document, mesh_index, primitive_index, told_by_conversion);
+  return within_place(builder, [&] { return triangle_bounds(builder, pose); });
+}
+
+std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
+                                      const MeshPose& pose, const Material& material, const UvSets& sets,
+                                      std::vector<std::string>& warnings) {
+  Builder builder = builder_of(document, mesh_index, primitive_index, warnings);
+  return within_place(builder, [&] { return convert(builder, pose, material, sets); });
 }
 
 }  // namespace footprint

@@ -276,7 +276,8 @@ void write_pictures(const RunFolder& folder, const Scores& scores) {
 
 PageImage page_image(const RunFolder& folder, const std::string& name, const std::string& stem, const Image& radiance,
                      float exposure) {
-  folder.attempt(stem, [&] { write_png(folder / (stem + ".png"), to_display(radiance, exposure)); });
+  // Scores count the pixels that are not finite.
+  folder.attempt(stem, [&] { write_png(folder / (stem + ".png"), to_display(finite_part(radiance), exposure)); });
   folder.attempt(stem, [&] { write_pixel_script(folder / (stem + "_values.js"), radiance); });
   return {.name = name, .png = stem + ".png", .values = stem + "_values.js"};
 }

@@ -140,7 +140,7 @@ TEST_F(ExperimentFile, EveryKeyIsRead) {
   EXPECT_EQ(experiment.run.timing.repeats, 3);
   EXPECT_EQ(experiment.run.reference.spp, 256);
   EXPECT_EQ(experiment.run.reference.seed, 7U);
-  EXPECT_TRUE(std::holds_alternative<Camera>(experiment.run.overrides.camera));
+  EXPECT_TRUE(std::holds_alternative<PlacedCamera>(experiment.run.overrides.camera));
   EXPECT_EQ(experiment.run.reference.other_spp, (std::vector<int>{16, 36}));
   EXPECT_EQ(experiment.run.reference.supersampling, (std::vector<int>{1, 4}));
   EXPECT_EQ(experiment.run.without.count(), 2U);

@@ -39,12 +39,7 @@ Image counted_reference(const RunFolder& folder, const DistanceResult& result) {
 }
 
 // For FLIP, which takes every pixel, those too that no figure includes because they are not finite.
-Image seen(const Image& radiance, float exposure) {
-  Image image = shown(radiance, exposure);
-  std::ranges::replace_if(
-      image.texels, [](float value) { return !std::isfinite(value); }, 0.0F);
-  return image;
-}
+Image seen(const Image& radiance, float exposure) { return finite_part(shown(radiance, exposure)); }
 
 std::string error_file(const RunFolder& folder, const Record& record, const std::string& end, const Image& error,
                        double top) {

@@ -339,7 +339,7 @@ View Stage::view(double distance) const {
 
 void Stage::pose_at(double seconds) {
   if (posed_at_ == seconds) return;
-  Scene posed = scene_at_time(settings_, seconds, scene().bounds);
+  Scene posed = scene_at_time(settings_, seconds, PlacedBounds{scene().bounds, scene().origin});
   const auto same_triangles = [](const Mesh& a, const Mesh& b) {
     return a.indices == b.indices && a.vertices.size() == b.vertices.size();
   };
@@ -479,7 +479,7 @@ std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, 
   return moved;
 }
 
-Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<Bounds>& bounds) {
+Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<PlacedBounds>& bounds) {
   SceneOverrides overrides = settings.overrides;
   overrides.model.time = seconds;
   overrides.bounds = bounds;
@@ -490,14 +490,16 @@ Scene scene_of_run(const RunSettings& settings) {
   if (settings.path.kind != AnimationPath::animation)
     return load_scene(settings.scene, settings.scene_library, settings.overrides);
   const Scene first = scene_at_time(settings, first_time(settings), {});
-  Bounds bounds = first.bounds;
+  WideBounds bounds;
+  bounds.add(first.bounds, first.origin);
   bool casts = false;
   for (const RunView& view : run_views(settings, first)) {
     const Scene posed = scene_at_time(settings, view.seconds, {});
-    bounds = {glm::min(bounds.lower, posed.bounds.lower), glm::max(bounds.upper, posed.bounds.upper)};
+    bounds.add(posed.bounds, posed.origin);
     casts = casts || casts_shadows(posed);
   }
-  Scene scene = scene_at_time(settings, first_time(settings), bounds);
+  const glm::dvec3 origin = origin_for(bounds);
+  Scene scene = scene_at_time(settings, first_time(settings), PlacedBounds{bounds.from(origin), origin});
   if (casts && !scene.shadows.cast) scene.shadows.cast = true;
   return scene;
 }

@@ -68,7 +68,8 @@ struct RunView {
 /// The scene at a time of its animation.
 /// bounds: of all frames, by which cameras and lights without a place of their own are placed.
 /// Errors: as load_scene.
-[[nodiscard]] Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<Bounds>& bounds);
+[[nodiscard]] Scene scene_at_time(const RunSettings& settings, double seconds,
+                                  const std::optional<PlacedBounds>& bounds);
 
 /// The axis of a path, unit: the camera's up by default.
 [[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);

@@ -113,7 +113,8 @@ TEST(Stage, AFrameOfAnAnimationIsThatOfTheScenePosedAtItsTime) {
     return stage.methods().front().frames().render(view).texels;
   };
   const auto posed = [&](double seconds) {
-    const Stage stage(scene_at_time(settings, seconds, scene.bounds), settings, no_progress);
+    const Stage stage(scene_at_time(settings, seconds, PlacedBounds{scene.bounds, scene.origin}), settings,
+                      no_progress);
     return stage.methods().front().frames().render(stage.view(1.0)).texels;
   };
   const std::vector<float> first = posed(0.0);

@@ -50,9 +50,9 @@ TEST(CameraSpace, LeavesOutWhatFacesAwayAndTurnsTwoSidedSurfacesRound) {
   const Image flat = BuiltMap(turned_square(0)).level("xu_vmf_whole", 0);
   const Image behind = BuiltMap(turned_square(180, true), camera_space).level("xu_vmf_whole", 0);
   for (int x = 0; x < flat.width; ++x) {
-    // Frame: tangent (-1, 0, 0), normal turned round to +z, bitangent cross(n, t) = (0, -1, 0).
+    // The turn makes the axes (-x, y, -z), and the back reverses all three of them.
     const glm::vec3 r = direction(flat, x, 3);
-    EXPECT_LT(glm::length(direction(behind, x, 3) - glm::vec3(-r.x, -r.y, r.z)), 1e-5F);
+    EXPECT_LT(glm::length(direction(behind, x, 3) - glm::vec3(r.x, -r.y, r.z)), 1e-5F);
   }
 }
 

@@ -79,7 +79,7 @@ void main() {
 //? if camera
   bool front = facesViewer();
   if (!front && !two_sided) return;
-  axis = tangentFrame(front ? world_normal : -world_normal, world_tangent) * axis;
+  axis = seenFrame(front, world_normal, world_tangent) * axis;
   if (dot(axis, viewer.xyz - viewer.w * world_position) <= 0.0) return;  //? if culling_normals
   axis = world_to_camera * axis;
 //? end

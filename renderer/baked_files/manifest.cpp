@@ -41,7 +41,7 @@ Json numbers(const Vector& vector) {
 Json coordinates_json(const TextureCoordinates& coordinates) {
   Json transform = Json::array();
   for (int column = 0; column < 3; ++column) transform.push_back(numbers(coordinates.transform[column]));
-  return {{"set", coordinates.set},
+  return {{"set", coordinates.texcoord.value_or(coordinates.set)},
           {"transform", std::move(transform)},
           {"wrap", {word_for(wraps, coordinates.wrap[0]), word_for(wraps, coordinates.wrap[1])}}};
 }

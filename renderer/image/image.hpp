@@ -1,6 +1,8 @@
 // An image or a map as a plain value: interleaved floats, row 0 first.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -60,6 +62,13 @@ template <class Write>
   Image out(from.width, from.height, channels, value);
   for_each_texel(from, [&](int x, int y) { write(from.at(x, y), out.at(x, y)); });
   return out;
+}
+
+/// The image with 0 for each value that is not finite.
+[[nodiscard]] inline Image finite_part(Image image) {
+  std::ranges::replace_if(
+      image.texels, [](float value) { return !std::isfinite(value); }, 0.0F);
+  return image;
 }
 
 template <typename Value>

@@ -52,6 +52,10 @@ struct FileImage {
 /// Whether a file's name has the extension of an image that read_image may read.
 [[nodiscard]] bool names_an_image(const std::filesystem::path& file);
 
+/// The files that this process wrote although they have values that are not finite, a line each with the number of
+/// pixels. Every function below that writes an image adds to them.
+[[nodiscard]] std::vector<std::string> files_not_finite();
+
 /// Writes 1, 3 or 4 channels as 32-bit float EXR (zip), atomically. Throws Error (machine): the folder cannot be
 /// written, the disk is full.
 void write_exr(const std::filesystem::path& file, const Image& image);
@@ -64,7 +68,8 @@ void write_png(const std::filesystem::path& file, const Image& image);
 [[nodiscard]] std::vector<unsigned char> encoded_png(const std::string& name, int width, int height, int channels,
                                                      std::span<const std::uint8_t> texels);
 
-/// Linear radiance to display: exposure, clamp, sRGB transfer curve; alpha stays, background is black.
+/// Linear radiance to display: exposure, clamp, sRGB transfer curve; alpha stays, background is black. What is not
+/// finite stays, for write_png to see.
 [[nodiscard]] Image to_display(const Image& radiance, float exposure);
 
 /// The number of texels by the header; 0 if read_image would refuse the file.

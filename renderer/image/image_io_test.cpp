@@ -254,8 +254,29 @@ TEST(ToDisplay, ExposesClampsAndEncodes) {
   Image radiance(3, 1, 4);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   radiance.texels = {0.10702057F, 0.001F, 9.0F, 1.0F, -1.0F, nan, 0.25F, 0.5F, 5.0F, 5.0F, 5.0F, 0.0F};
-  const Image display = to_display(radiance, 2.0F);
+  Image display = to_display(radiance, 2.0F);
+  EXPECT_TRUE(std::isnan(display.texels[5]));  // for write_png to see
+  display.texels[5] = 0.0F;
   expect_texels(display, {0.5, 0.002 * 12.92, 1, 1, 0, 0, 0.735357, 0.5, 0, 0, 0, 0});
+}
+
+TEST(FilesNotFinite, AreNamedByEveryWriter) {
+  const fs::path folder = fresh_folder();
+  Image image(3, 2, 4, 0.5F);
+  const std::size_t before = files_not_finite().size();
+  write_exr(folder / "fine.exr", image);
+  write_png(folder / "fine.png", to_display(image, 1.0F));
+  write_exr_chain(folder / "fine_chain.exr", {.levels = {image}, .channels = {"R", "G", "B", "A"}}, ExrTexel::full);
+  EXPECT_EQ(files_not_finite().size(), before);
+  image.at(1, 0)[0] = image.at(1, 0)[2] = std::numeric_limits<float>::quiet_NaN();
+  image.at(2, 1)[1] = std::numeric_limits<float>::infinity();
+  write_exr(folder / "a.exr", image);
+  write_png(folder / "b.png", to_display(image, 1.0F));
+  write_exr_chain(folder / "c.exr", {.levels = {image}, .channels = {"R", "G", "B", "A"}}, ExrTexel::full);
+  const std::vector<std::string> lines = files_not_finite();
+  ASSERT_EQ(lines.size(), before + 3);
+  const std::array<std::string, 3> names{"a.exr", "b.png", "c.exr"};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(lines[before + i], names.at(i) + ": 2 of 6 pixels are not finite");
 }
 
 // Encoding and decoding are inverses over all 8-bit codes.

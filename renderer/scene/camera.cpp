@@ -77,7 +77,7 @@ Camera camera_at_distance(const Scene& scene, double factor) {
   const glm::dvec3 eye{camera.world[3]};
   double depth = glm::dot(glm::dvec3{scene.bounds.centre()} - eye, forward);
   // For a camera inside the scene, or looking away, the size of the bounds replaces the distance.
-  if (depth <= 0.0) depth = std::max(static_cast<double>(scene.bounds.radius()), 1e-6);
+  if (depth <= 0.0) depth = scene.bounds.radius() > 0.0F ? static_cast<double>(scene.bounds.radius()) : 1e-6;
   const double shift = (factor - 1.0) * depth;
   camera.world[3] = glm::vec4{glm::vec3{eye - forward * shift}, 1.0F};
   // The planes keep their position in the world; moving closer, they come no nearer than in proportion.
@@ -106,7 +106,7 @@ std::vector<Light> supplied_lights(const Camera& camera, const Bounds& bounds) {
   const glm::vec3 to_key = glm::normalize(glm::vec3{-0.5F, 0.6F, 1.0F});
   const glm::vec3 to_fill = glm::normalize(glm::vec3{0.8F, -0.3F, 0.8F});
   const glm::vec3 to_point = glm::normalize(glm::vec3{0.35F, 0.45F, 1.0F});
-  const float distance = 3.0F * std::max(bounds.radius(), 0.5e-3F);
+  const float distance = 3.0F * (bounds.radius() > 0.0F ? bounds.radius() : 0.5F);
   const auto directional = [&](const glm::vec3& to_light, float radiance) {
     return DirectionalLight{axes * -to_light, glm::vec3{illuminance_for(radiance, to_light.z)}};
   };

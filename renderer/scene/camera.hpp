@@ -18,8 +18,15 @@ struct Framing {
   double aspect = 1.0;                   ///< width / height of the frame to fill
 };
 
+/// A camera at a place in the user's coordinates.
+struct PlacedCamera {
+  glm::dvec3 position{0.0}, target{0.0, 0.0, -1.0};  ///< which differ
+  glm::dvec3 up{0.0, 1.0, 0.0};                      ///< as in `look_at`
+  Camera lens{};                                     ///< everything but `world`
+};
+
 /// The camera: the model's own (framed if it has none), framed, or given.
-using CameraSettings = std::variant<std::monostate, Framing, Camera>;
+using CameraSettings = std::variant<std::monostate, Framing, PlacedCamera>;
 
 /// A camera that looks at the centre of `bounds` from the smallest distance that shows all eight corners, times the
 /// margin. y is up, or +z if `direction` is vertical. Bounds without extent count as 1 m wide.
@@ -31,7 +38,7 @@ using CameraSettings = std::variant<std::monostate, Framing, Camera>;
 
 /// A key and a fill directional light and a point light, relative to the camera. A white Lambert surface at the bounds'
 /// centre that faces the camera has radiance 0.8: 0.5 from the key (upper left), 0.1 from the fill (lower right) and
-/// 0.2 from the point light (upper right, three radii away).
+/// 0.2 from the point light (upper right, three radii away). Bounds without extent count as 1 m wide.
 [[nodiscard]] std::vector<Light> supplied_lights(const Camera& camera, const Bounds& bounds);
 
 /// A soft studio environment, +y up, because metal would be black under lamps: grey from a dark floor to a bright

@@ -16,6 +16,7 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
+#include "renderer/scene/tangents.hpp"
 
 namespace footprint {
 namespace {

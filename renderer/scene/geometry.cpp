@@ -1,4 +1,4 @@
-// Tangents from texture coordinates, and new vertices with the means of their edge's ends.
+// Triangle lists, normals, and new vertices with the means of their edge's ends.
 #include "renderer/scene/geometry.hpp"
 
 #include <algorithm>
@@ -14,87 +14,10 @@ namespace {
 
 constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
 
-/// Where a map with `coordinates` is looked up at a vertex.
-glm::vec2 map_position(const Vertex& vertex, const TextureCoordinates& coordinates) {
-  return coordinates.transform * glm::vec3{coordinates.set == 1 ? vertex.uv1 : vertex.uv0, 1.0F};
-}
-
-/// Any unit vector at right angles to a unit vector.
-glm::vec3 any_perpendicular(const glm::vec3& unit) {
-  const glm::vec3 axis = std::abs(unit.x) < 0.9F ? glm::vec3{1.0F, 0.0F, 0.0F} : glm::vec3{0.0F, 1.0F, 0.0F};
-  return glm::normalize(axis - unit * glm::dot(unit, axis));
-}
-
 /// Twice the area times the normal.
 glm::dvec3 area_normal(const Vertex& a, const Vertex& b, const Vertex& c) {
   const glm::dvec3 origin{a.position};
   return glm::cross(glm::dvec3{b.position} - origin, glm::dvec3{c.position} - origin);
-}
-
-/// `vector` normalised, or `fallback` if it has no length. Scaled first, because squares of tiny lengths underflow.
-glm::dvec3 unit_or(const glm::dvec3& vector, const glm::dvec3& fallback) {
-  const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
-  if (!(largest > 0.0) || !std::isfinite(largest)) return fallback;
-  return glm::normalize(vector / largest);
-}
-
-/// The normalised part of `vector` perpendicular to the unit `normal`; zero if there is none.
-glm::dvec3 in_tangent_plane(const glm::dvec3& vector, const glm::dvec3& normal) {
-  const glm::dvec3 direction = unit_or(vector, glm::dvec3{0.0});
-  const glm::dvec3 flat = direction - normal * glm::dot(normal, direction);
-  // Parallel up to rounding: the rest is noise.
-  return glm::length(flat) > 1e-6 ? glm::normalize(flat) : glm::dvec3{0.0};
-}
-
-/// d position / d u of a triangle and the handedness of its texture coordinates; handedness 0 where they are
-/// degenerate.
-struct TriangleFrame {
-  glm::dvec3 tangent{0.0};
-  int handedness = 0;
-};
-
-TriangleFrame triangle_frame(const std::array<const Vertex*, 3>& corners, const TextureCoordinates& coordinates) {
-  const glm::dvec3 p0{corners[0]->position};
-  const glm::dvec3 edge1 = glm::dvec3{corners[1]->position} - p0;
-  const glm::dvec3 edge2 = glm::dvec3{corners[2]->position} - p0;
-  const glm::dvec2 t0{map_position(*corners[0], coordinates)};
-  const glm::dvec2 uv1 = glm::dvec2{map_position(*corners[1], coordinates)} - t0;
-  const glm::dvec2 uv2 = glm::dvec2{map_position(*corners[2], coordinates)} - t0;
-  const double area = uv1.x * uv2.y - uv2.x * uv1.y;
-  const double scale = glm::length(uv1) * glm::length(uv2);
-  // Collinear to the rounding of float coordinates: the direction of u is noise.
-  if (!std::isfinite(scale) || std::abs(area) <= 1e-7 * scale) return {};
-  const double sign = area > 0.0 ? 1.0 : -1.0;
-  // Counter-clockwise triangles with v downwards have a negative area: those are the unmirrored ones.
-  return {sign * (edge1 * uv2.y - edge2 * uv1.y), area > 0.0 ? -1 : 1};
-}
-
-double corner_angle(const glm::dvec3& corner, const glm::dvec3& left, const glm::dvec3& right) {
-  const glm::dvec3 a = unit_or(left - corner, glm::dvec3{0.0});
-  const glm::dvec3 b = unit_or(right - corner, glm::dvec3{0.0});
-  return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
-}
-
-/// Sums over a vertex's triangles, and its twin for the other handedness.
-struct Gathered {
-  glm::dvec3 tangent{0.0};
-  int handedness = 0;
-  std::uint32_t twin = unused;
-};
-
-/// The vertex that takes a triangle of `handedness` instead of `index`: itself, or a twin made on first need.
-std::uint32_t vertex_for(std::uint32_t index, int handedness, std::vector<Vertex>& vertices,
-                         std::vector<Gathered>& gathered) {
-  Gathered& own = gathered[index];
-  if (own.handedness == 0) own.handedness = handedness;
-  if (own.handedness == handedness) return index;
-  if (own.twin == unused) {
-    own.twin = static_cast<std::uint32_t>(vertices.size());
-    vertices.push_back(vertices[index]);
-    gathered.push_back({glm::dvec3{0.0}, handedness, unused});  // `own` dangles from here on
-    return static_cast<std::uint32_t>(vertices.size() - 1);
-  }
-  return own.twin;
 }
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -158,6 +81,12 @@ class Splitter {
 };
 
 }  // namespace
+
+glm::dvec3 unit_or(const glm::dvec3& vector, const glm::dvec3& fallback) {
+  const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+  if (!(largest > 0.0) || !std::isfinite(largest)) return fallback;
+  return glm::normalize(vector / largest);  // squares of tiny lengths would underflow
+}
 
 std::vector<std::uint32_t> triangle_list(std::span<const std::uint32_t> indices, Topology topology) {
   std::vector<std::uint32_t> list;
@@ -241,44 +170,6 @@ std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint
     if (broken[i]) vertices[i].normal = glm::vec3{unit_or(sums[i], {0.0, 0.0, 1.0})};
   }
   return count;
-}
-
-std::size_t repair_tangents(std::span<Vertex> vertices) {
-  std::size_t count = 0;
-  for (Vertex& vertex : vertices) {
-    const glm::dvec3 tangent = in_tangent_plane(glm::dvec3{vertex.tangent}, glm::dvec3{vertex.normal});
-    const bool valid = glm::dot(tangent, tangent) > 0.5;
-    count += valid ? 0 : 1;
-    vertex.tangent = {valid ? glm::vec3{tangent} : any_perpendicular(vertex.normal),
-                      vertex.tangent.w < 0.0F ? -1.0F : 1.0F};
-  }
-  return count;
-}
-
-void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices,
-                      const TextureCoordinates& coordinates) {
-  std::vector<Gathered> gathered(vertices.size());
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    const TriangleFrame frame =
-        triangle_frame({&vertices[indices[i]], &vertices[indices[i + 1]], &vertices[indices[i + 2]]}, coordinates);
-    if (frame.handedness == 0) continue;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      indices[i + corner] = vertex_for(indices[i + corner], frame.handedness, vertices, gathered);
-    }
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t index = indices[i + corner];
-      const double angle = corner_angle(glm::dvec3{vertices[index].position},
-                                        glm::dvec3{vertices[indices[i + (corner + 1) % 3]].position},
-                                        glm::dvec3{vertices[indices[i + (corner + 2) % 3]].position});
-      gathered[index].tangent += angle * in_tangent_plane(frame.tangent, glm::dvec3{vertices[index].normal});
-    }
-  }
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const glm::dvec3 tangent = in_tangent_plane(gathered[i].tangent, glm::dvec3{vertices[i].normal});
-    const bool found = glm::dot(tangent, tangent) > 0.5;
-    vertices[i].tangent = {found ? glm::vec3{tangent} : any_perpendicular(vertices[i].normal),
-                           gathered[i].handedness < 0 ? -1.0F : 1.0F};
-  }
 }
 
 Mesh make_plane(glm::vec2 size, glm::vec2 uv_tiling) {

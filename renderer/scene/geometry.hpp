@@ -1,4 +1,4 @@
-// Meshes: triangles of a material, tangents, joining, splitting of edges, and planes.
+// Meshes: triangles of a material, normals, joining, splitting of edges, and planes.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "renderer/scene/material.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
+
+/// `vector` at length 1, of any length that a double has; `fallback` if it has none or is not finite.
+[[nodiscard]] glm::dvec3 unit_or(const glm::dvec3& vector, const glm::dvec3& fallback);
 
 /// How indices form triangles (glTF 2.0, section 3.7.2.1).
 enum class Topology { triangles, strip, fan };
@@ -40,17 +42,6 @@ void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>
 /// Normalises all normals. A normal of zero length or with a NaN becomes the area-weighted mean of its triangles'
 /// normals (+z if these are degenerate too). Returns the number of replaced normals.
 std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint32_t> indices);
-
-/// Makes a file's tangents orthonormal to its unit normals. A tangent that is not finite, or parallel to the normal, is
-/// replaced by an arbitrary one. Returns the number of replaced tangents.
-std::size_t repair_tangents(std::span<Vertex> vertices);
-
-/// Computes tangents from positions, unit normals and texture coordinates: the triangles' d position / d u, projected
-/// onto the vertex's tangent plane and weighted by the angle at the vertex (Mikkelsen 2008). The bitangent
-/// cross(normal, tangent) * w points against v, to the top of the map, as glTF requires. Vertices shared by triangles
-/// of opposite handedness are split. Degenerate coordinates give an arbitrary frame around the normal.
-void compute_tangents(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices,
-                      const TextureCoordinates& coordinates);
 
 /// A rectangle of `size` (metres) in the xy plane, centred on the origin: normal +z, tangent +x, four vertices, two
 /// triangles, material 0. Texture coordinates run from (0, 0) at the top left to `uv_tiling` at the bottom right (glTF:

@@ -108,9 +108,9 @@ void fields(ByteArchive& archive, const Material& material) {
 }
 
 void fields(ByteArchive& archive, const Scene& scene) {
-  const auto& [name, source, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint,
-               exposure, distances, frame_size, choices, motion, defaults, warnings] = scene;
-  archive(name, meshes, materials, lights, shadows, horizon, environment, camera, bounds, footprint, exposure);
+  const auto& [name, source, meshes, materials, lights, shadows, horizon, environment, camera, bounds, origin,
+               footprint, exposure, distances, frame_size, choices, motion, defaults, warnings] = scene;
+  archive(name, meshes, materials, lights, shadows, horizon, environment, camera, bounds, origin, footprint, exposure);
   archive(distances, frame_size, motion, defaults, warnings);
   for (const Material& material : materials) archive(material.name);
 }

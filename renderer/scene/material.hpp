@@ -39,9 +39,10 @@ enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
 
 /// The coordinates of a map: transform * (u, v, 1) of the mesh's set.
 struct TextureCoordinates {
-  int set = 0;                                                ///< TEXCOORD_0 or TEXCOORD_1
+  int set = 0;                                                ///< 0 or 1, of a vertex
   glm::mat3x2 transform{1.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F};  ///< columns: d/du, d/dv, offset (KHR_texture_transform)
   std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};       ///< along u and v
+  std::optional<int> texcoord{};                              ///< TEXCOORD_n of the model's file; none: `set`
 
   friend bool operator==(const TextureCoordinates&, const TextureCoordinates&) = default;
 };

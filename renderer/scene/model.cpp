@@ -14,6 +14,8 @@
 #include "renderer/core/numbers.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/scene/geometry.hpp"
+#include "renderer/scene/origin.hpp"
+#include "renderer/scene/tangents.hpp"
 
 namespace footprint {
 namespace {
@@ -45,10 +47,14 @@ class ObjReader {
       text.remove_prefix(std::min(end + 1, text.size()));
       if (line_number_ % 4096 == 0) throw_if_interrupted();
     }
+    move_positions();
     repair_normals(mesh_.vertices, mesh_.indices);
     compute_tangents(mesh_.vertices, mesh_.indices, {});
     return std::move(mesh_);
   }
+
+  /// What the mesh's positions are measured from.
+  [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
 
  private:
   /// Indices of a corner's position, texture coordinates and normal; -1: none.
@@ -62,22 +68,22 @@ class ObjReader {
   void statement(std::string_view line) {
     line = line.substr(0, line.find('#'));
     const std::string_view keyword = next_word(line);
-    if (keyword == "v") positions_.push_back(numbers<3>(line));
-    if (keyword == "vn") normals_.push_back(numbers<3>(line));
+    if (keyword == "v") positions_.push_back(numbers<3, double>(line));
+    if (keyword == "vn") normals_.push_back(numbers<3, float>(line));
     if (keyword == "vt") {
-      const glm::vec2 uv = numbers<2>(line);
+      const auto uv = numbers<2, float>(line);
       uvs_.emplace_back(uv.x, 1.0F - uv.y);
     }
     if (keyword == "f") face(line);
   }
 
-  template <int Count>
-  [[nodiscard]] glm::vec<Count, float> numbers(std::string_view& line) const {
-    glm::vec<Count, float> values{0.0F};
+  template <int Count, class Number>
+  [[nodiscard]] glm::vec<Count, Number> numbers(std::string_view& line) const {
+    glm::vec<Count, Number> values{0};
     for (int i = 0; i < Count; ++i) {
       const std::string_view word = next_word(line);
-      const auto value = parse_whole_of<float>(word);
-      if (!value || !(std::abs(*value) <= farthest))
+      const auto value = parse_whole_of<Number>(word);
+      if (!value || !(std::abs(*value) <= static_cast<Number>(farthest)))
         throw fault(fmt::format("`{:.40}` is not a number within 1e15", word));
       values[i] = *value;
     }
@@ -124,19 +130,31 @@ class ObjReader {
     if (!is_new) return entry->second;
     const auto at = [](const auto& values, int index) { return values[static_cast<std::size_t>(index)]; };
     Vertex vertex;
-    vertex.position = at(positions_, corner[0]);
     vertex.normal = corner[2] < 0 ? glm::vec3{0.0F} : at(normals_, corner[2]);
     vertex.uv0 = vertex.uv1 = corner[1] < 0 ? glm::vec2{0.0F} : at(uvs_, corner[1]);
     mesh_.vertices.push_back(vertex);
+    position_of_vertex_.push_back(static_cast<std::size_t>(corner[0]));
     return entry->second;
+  }
+
+  /// Rounds positions to 32 bits only once they are near the mesh.
+  void move_positions() {
+    WideBounds bounds;
+    for (const std::size_t position : position_of_vertex_) bounds.add(positions_[position]);
+    origin_ = origin_for(bounds);
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i)
+      mesh_.vertices[i].position = glm::vec3{positions_[position_of_vertex_[i]] - origin_};
   }
 
   std::filesystem::path file_;
   std::size_t line_number_ = 0;
-  std::vector<glm::vec3> positions_, normals_;
+  std::vector<glm::dvec3> positions_;
+  std::vector<std::size_t> position_of_vertex_;
+  std::vector<glm::vec3> normals_;
   std::vector<glm::vec2> uvs_;
   std::map<Corner, std::uint32_t> vertices_of_corners_;
   Mesh mesh_;
+  glm::dvec3 origin_{0.0};
 };
 
 }  // namespace
@@ -165,7 +183,9 @@ Model load_model(const std::filesystem::path& file, const ModelSelection& select
 Model load_obj(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = read_file_bytes(file, largest_file);
   Model model;
-  Mesh mesh = ObjReader(file).read({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  ObjReader reader(file);
+  Mesh mesh = reader.read({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  model.origin = reader.origin();
   if (!mesh.indices.empty()) model.meshes.push_back(std::move(mesh));
   Material material;
   material.name = file.stem().string();

@@ -13,6 +13,7 @@ namespace footprint {
 
 /// Meshes, materials, lights and camera of a model, as in Scene.
 struct Model {
+  glm::dvec3 origin{0.0};  ///< as Scene::origin
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Light> lights;

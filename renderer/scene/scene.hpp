@@ -44,7 +44,8 @@ struct ModelChoice {
 /// The index of the name or number `wanted`. Throws Error (usage): unknown, with the nearest name.
 [[nodiscard]] std::size_t find_choice(const ModelChoice& choice, const std::string& wanted);
 
-/// A vertex in world space (node transforms applied). Tangent w is the bitangent's sign (glTF 2.0).
+/// A vertex in world space (node transforms applied), its position from Scene::origin. Tangent w is the bitangent's
+/// sign (glTF 2.0).
 struct Vertex {
   glm::vec3 position{0.0F};
   glm::vec3 normal{0.0F, 0.0F, 1.0F};
@@ -73,7 +74,7 @@ struct PointLight {
 struct SpotLight {
   PointLight point;
   glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< from the light, unit
-  float inner_cone_angle = 0.0F;           ///< radians, 0 <= inner < outer <= pi / 2
+  float inner_cone_angle = 0.0F;           ///< radians, 0 <= inner <= outer <= pi / 2
   float outer_cone_angle = 0.785398F;
 };
 
@@ -114,6 +115,16 @@ struct AreaLight {
 };
 
 using Light = std::variant<PointLight, SpotLight, DirectionalLight, AreaLight>;
+
+/// The position of a light; null for one that has none.
+[[nodiscard]] inline glm::vec3* position_in(Light& light) {
+  const auto find = [](auto& own) -> glm::vec3* {
+    if constexpr (requires { own.point; }) return &own.point.position;
+    if constexpr (requires { own.position; }) return &own.position;
+    return nullptr;
+  };
+  return std::visit(find, light);
+}
 
 /// A camera as glTF defines it: looks along its own -z, y up.
 struct Camera {
@@ -167,6 +178,7 @@ struct Scene {
   std::optional<Environment> environment;
   Camera camera;
   Bounds bounds;
+  glm::dvec3 origin{0.0};  ///< the place in the user's coordinates that all positions above are measured from
   std::optional<FootprintFilter> footprint;  ///< for its images; none: default_footprint_filter
   std::optional<float> exposure;             ///< multiplies radiance for display and clamped measures; none: automatic
   std::vector<double> distances{1.0};    ///< the default zoom: factors on the camera's distance to the bounds' centre

@@ -23,7 +23,7 @@ Incident incidentPoint(int i, mat3 frame) {
   float d2 = dot(d, d);
   float attenuation = distanceAttenuation(d2, point_lights[i].position_range.w);
   attenuation *= clearOfShadow(point_lights[i].intensity.w, world_position, seen_facet, -d);  //? if cast_shadow
-  return incident((d * inversesqrt(max(d2, 1e-24))) * frame, point_lights[i].intensity.rgb * attenuation,
+  return incident((d * inversesqrt(max(d2, 1e-36))) * frame, point_lights[i].intensity.rgb * attenuation,
                   vec4(point_lights[i].position_range.xyz, 1.0));
 }
 //? end
@@ -32,7 +32,7 @@ Incident incidentPoint(int i, mat3 frame) {
 Incident incidentSpot(int i, mat3 frame) {
   vec3 d = spot_lights[i].position_range.xyz - world_position;
   float d2 = dot(d, d);
-  vec3 to_light = d * inversesqrt(max(d2, 1e-24));
+  vec3 to_light = d * inversesqrt(max(d2, 1e-36));
   float angular =
       clamp(-dot(spot_lights[i].direction.xyz, to_light) * spot_lights[i].cone.x + spot_lights[i].cone.y, 0.0, 1.0);
   float attenuation = distanceAttenuation(d2, spot_lights[i].position_range.w) * angular * angular;
@@ -63,7 +63,7 @@ Incident incidentAreaPoint(int i, mat3 frame) {
 //? if cast_shadow
   attenuation *= clearOfShadow(light.intensity.w, world_position, seen_facet, world_position - light.position_area.xyz);
 //? end
-  return incident((d * inversesqrt(max(dot(d, d), 1e-24))) * frame, light.intensity.rgb * attenuation,
+  return incident((d * inversesqrt(max(dot(d, d), 1e-36))) * frame, light.intensity.rgb * attenuation,
                   vec4(area_points[i].xyz, 1.0));
 }
 //? end

@@ -260,8 +260,8 @@ void main() {
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
 //? end
-  mat3 frame = tangentFrame(gl_FrontFacing ? world_normal : -world_normal, world_tangent);  //? if double_sided
-  mat3 frame = tangentFrame(world_normal, world_tangent);                                   //? else
+  mat3 frame = seenFrame(gl_FrontFacing, world_normal, world_tangent);  //? if double_sided
+  mat3 frame = tangentFrame(world_normal, world_tangent);               //? else
   fetchNeighbourFrames(frame, f);  //? if screen_derivatives
   drawPoint();  //? if random_draws
   if (meanAlpha(f) < lobe_cutoff.y) discard;  //? if alpha_mask

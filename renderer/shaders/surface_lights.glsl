@@ -33,7 +33,7 @@ uniform int directional_light_count;  //? if not fixed_trips
 //? end
 // Inverse square falloff, windowed if the light has a range (KHR_lights_punctual).
 float distanceAttenuation(float squared_distance, float range) {
-  float falloff = 1.0 / max(squared_distance, 1e-12);
+  float falloff = 1.0 / max(squared_distance, 1e-36);
   if (range <= 0.0) return falloff;
   float ratio = squared_distance / (range * range);
   return falloff * clamp(1.0 - ratio * ratio, 0.0, 1.0);

@@ -86,14 +86,10 @@ struct Measured {
   std::vector<VertexVisibility> shares;  // without weights
 };
 
-void require_room(std::size_t vertices, std::size_t samples, const std::string& source) {
-  constexpr const char* hint = "set `cast = false` in [shadows] of a scene.toml, or use a coarser model";
-  const std::string what = fmt::format("visibility at {} vertices", vertices);
-  if (vertices > most_visibility_vertices) {
-    throw Error(ErrorKind::machine, source,
-                fmt::format("{} of the environment: the most is {}", what, most_visibility_vertices), hint);
-  }
-  require_memory(vertices * sizeof(VertexVisibility) + 2 * samples * map_texels * sizeof(float), what, hint);
+void require_room(std::size_t vertices, std::size_t samples) {
+  require_memory(vertices * sizeof(VertexVisibility) + 2 * samples * map_texels * sizeof(float),
+                 fmt::format("visibility at {} vertices", vertices),
+                 "set `cast = false` in [shadows] of a scene.toml, or use a coarser model");
 }
 
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders, Horizon horizon,
@@ -196,7 +192,7 @@ VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
                                  const Progress& progress) {
   const std::vector<const Vertex*> vertices = all_vertices(scene);
   const VertexSamples samples(vertices, sample_spacing(scene));
-  require_room(vertices.size(), samples.samples().size(), scene.source);
+  require_room(vertices.size(), samples.samples().size());
   Measured measured = measure(samples.samples(), occluders, scene.horizon, visibility_light(environment), progress);
   const Eigen::RowVectorXf mean = measured.distances.colwise().mean();
   measured.distances.rowwise() -= mean;

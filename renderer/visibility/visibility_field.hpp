@@ -23,9 +23,6 @@ inline constexpr int visibility_map_edge = 16;
 /// The bounds' radius over the longest edge of refined meshes.
 inline constexpr float visibility_edges_in_radius = 24.0F;
 
-/// The largest number of vertices of a scene.
-inline constexpr std::size_t most_visibility_vertices = std::size_t{1} << 22U;
-
 /// Light from each cell of the visibility grid, in its order: radiance integrated over the solid angle.
 [[nodiscard]] std::vector<glm::dvec3> visibility_light(const Environment& environment);
 
@@ -45,8 +42,7 @@ struct VisibilityField {
 
 /// Computes the visibility (VertexSamples; 1024 rays each, TBB and Embree) at vertices at least half a refined mesh's
 /// edge apart, compresses the distances by principal components, and interpolates them at the other vertices. Equal
-/// scenes give equal fields at any number of threads. Throws Error (machine): too many vertices, or too little memory;
-/// as `progress`.
+/// scenes give equal fields at any number of threads. Throws Error (machine): too little memory; as `progress`.
 [[nodiscard]] VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
                                                const Environment& environment, const Progress& progress);
 

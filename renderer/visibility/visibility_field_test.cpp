@@ -12,6 +12,7 @@
 #include "renderer/environment/radiance_stack.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "tests/support/shadow_scenes.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace footprint::testing {
 namespace {
@@ -206,6 +207,18 @@ TEST(VisibilityField, LightOfCellsIsAllOfTheLight) {
     EXPECT_GT(cell.x, 0.2 * 4.0 * std::numbers::pi / 1024.0);
     EXPECT_LT(cell.x, 5.0 * 4.0 * std::numbers::pi / 1024.0);
   }
+}
+
+// More than 2^22 vertices, all but a few at one place, so that rays are few.
+TEST(VisibilityField, TakesAsManyVerticesAsAScene) {
+  if (!all_tests()) GTEST_SKIP() << "takes a GiB";
+  Scene scene = box_over_floor();
+  const std::vector<Vertex> few = scene.meshes[0].vertices;
+  scene.meshes[0].vertices.resize((std::size_t{1} << 22U) + 5, few[0]);
+  const Environment white = constant_environment(glm::vec3(1.0F));
+  const VisibilityField field = visibility_field(scene, Occluders(scene), white, no_progress);
+  ASSERT_EQ(field.meshes[0].size(), scene.meshes[0].vertices.size());
+  EXPECT_EQ(field.meshes[0].back().diffuse_share, field.meshes[0].front().diffuse_share);
 }
 
 TEST(VisibilityField, CanBeInterrupted) {

@@ -80,6 +80,15 @@ class MethodFileTest(WholeRunTest):
         self.assertIsNone(own["failure"])
         self.assertIn("./broken.glsl:10: ", failed["failure"])
 
+    def test_an_image_that_is_not_finite_is_named_with_exit_code_1(self):
+        broken = self.file(HEAD + BODY.replace("= lobe_cutoff.x", "= sqrt(-1.0 - lobe_cutoff.x)"), "broken.glsl")
+        for name in ("broken.exr", "broken.png"):
+            error = self.refused("render", "bumps", *SMALL, "--method", broken, "--quiet", "-o", name, code=1)
+            self.assertRegex(error, f"{name}: [1-9][0-9]* of 2304 pixels are not finite")
+        arguments = ("bumps", *SMALL, "--spp", 4, "--methods", f"toksvig,{broken}", "-q", "-o", "all")
+        self.assertIn("the value is not a finite number", self.refused("compare", *arguments, code=1))
+        self.assertEqual(list((self.folder / "all/images").glob("*broken*")), [])
+
     def test_errors_of_its_text_name_its_line(self):
         broken = self.file(HEAD + BODY.replace("lobe_cutoff.x", "lobe_cutof.x"), "broken.glsl")
         error = self.refused("render", "bumps", *SMALL, "--method", broken, "--quiet", "-o", "broken.exr")

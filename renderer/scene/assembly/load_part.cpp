@@ -14,6 +14,7 @@
 #include "renderer/scene/charts.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/model.hpp"
+#include "renderer/scene/origin.hpp"
 #include "renderer/scene/settings/toml_values.hpp"
 
 namespace footprint {
@@ -314,42 +315,48 @@ void lay_patches(const PartSettings& settings, Model& model) {
   model.meshes = std::move(meshes);
 }
 
-/// Moves a model with its lights and its camera, whose strengths and angles stay.
-void place(const Placement& placement, Model& model) {
-  glm::dmat4 turn{1.0};
-  for (int axis = 2; axis >= 0; --axis) {  // the last factor turns first
-    glm::dvec3 about{0.0};
-    about[axis] = 1.0;
-    turn = glm::rotate(turn, placement.rotation[axis], about);
+// Moves points by a placement, in double precision.
+class Placer {
+ public:
+  // origin: what the points are measured from.
+  Placer(const Placement& placement, const glm::dvec3& origin) : placement_(placement), origin_(origin) {
+    glm::dmat4 turn{1.0};
+    for (int axis = 2; axis >= 0; --axis) {  // the last factor turns first
+      glm::dvec3 about{0.0};
+      about[axis] = 1.0;
+      turn = glm::rotate(turn, placement.rotation[axis], about);
+    }
+    rotation_ = glm::dmat3(turn);
   }
-  const glm::dmat3 rotation(turn);
-  const auto move = [&](glm::vec3& point) {
-    point = glm::vec3(rotation * (placement.scale * glm::dvec3(point)) + placement.translation);
-  };
+
+  // In the user's coordinates.
+  [[nodiscard]] glm::dvec3 point(const glm::vec3& point) const {
+    return rotation_ * (placement_.scale * (glm::dvec3(point) + origin_)) + placement_.translation;
+  }
+  [[nodiscard]] const glm::dmat3& rotation() const { return rotation_; }
+
+ private:
+  const Placement& placement_;
+  glm::dvec3 origin_;
+  glm::dmat3 rotation_{1.0};
+};
+
+// Turns normals, tangents, and the directions of lights and camera.
+void turn_directions(const glm::dmat3& rotation, Model& model) {
   const auto turned = [&](const glm::vec3& direction) { return glm::vec3(rotation * glm::dvec3(direction)); };
   for (Mesh& mesh : model.meshes) {
     for (Vertex& vertex : mesh.vertices) {
-      move(vertex.position);
       vertex.normal = turned(vertex.normal);
       vertex.tangent = {turned(glm::vec3(vertex.tangent)), vertex.tangent.w};
     }
   }
   for (Light& light : model.lights) {
-    if (auto* point = std::get_if<PointLight>(&light)) move(point->position);
-    if (auto* directional = std::get_if<DirectionalLight>(&light)) {
+    if (auto* directional = std::get_if<DirectionalLight>(&light))
       directional->direction = turned(directional->direction);
-    }
-    if (auto* spot = std::get_if<SpotLight>(&light)) {
-      move(spot->point.position);
-      spot->direction = turned(spot->direction);
-    }
+    if (auto* spot = std::get_if<SpotLight>(&light)) spot->direction = turned(spot->direction);
   }
   if (!model.camera) return;
-  glm::mat4& world = model.camera->world;
-  for (int axis = 0; axis < 3; ++axis) world[axis] = {turned(glm::vec3(world[axis])), 0.0F};
-  glm::vec3 eye(world[3]);
-  move(eye);
-  world[3] = {eye, 1.0F};
+  for (int axis = 0; axis < 3; ++axis) model.camera->world[axis] = {turned(glm::vec3(model.camera->world[axis])), 0.0F};
 }
 
 void add_name(const std::string& part, std::string& name) {
@@ -393,8 +400,34 @@ Model load_part(const PartSettings& settings) {
   }
   if (settings.brdf.base_color || settings.maps.diffuse) whiten_vertices(model);
   for (Mesh& mesh : model.meshes) add_name(settings.name, mesh.name);
-  place(settings.placement, model);
   return model;
+}
+
+WideBounds placed_bounds(const Placement& placement, const Model& model) {
+  const Placer placer(placement, model.origin);
+  WideBounds bounds;
+  for (const Mesh& mesh : model.meshes) {
+    for (const Vertex& vertex : mesh.vertices) bounds.add(placer.point(vertex.position));
+  }
+  return bounds;
+}
+
+void place(const Placement& placement, const glm::dvec3& origin, Model& model) {
+  const Placer placer(placement, model.origin);
+  const auto move = [&](glm::vec3& point) { point = glm::vec3(placer.point(point) - origin); };
+  for (Mesh& mesh : model.meshes) {
+    for (Vertex& vertex : mesh.vertices) move(vertex.position);
+  }
+  for (Light& light : model.lights) {
+    if (glm::vec3* const position = position_in(light)) move(*position);
+  }
+  if (model.camera) {
+    glm::vec3 eye(model.camera->world[3]);
+    move(eye);
+    model.camera->world[3] = {eye, 1.0F};
+  }
+  model.origin = origin;
+  turn_directions(placer.rotation(), model);
 }
 
 }  // namespace footprint

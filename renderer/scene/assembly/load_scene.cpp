@@ -14,6 +14,17 @@
 namespace footprint {
 namespace {
 
+Bounds bounds_of(const std::vector<Mesh>& meshes) {
+  Bounds bounds{meshes.front().vertices.front().position, meshes.front().vertices.front().position};
+  for (const Mesh& mesh : meshes) {
+    for (const Vertex& vertex : mesh.vertices) {
+      bounds.lower = glm::min(bounds.lower, vertex.position);
+      bounds.upper = glm::max(bounds.upper, vertex.position);
+    }
+  }
+  return bounds;
+}
+
 /// Adds a part; the first camera is used.
 void add(Model& model, Model part) {
   const int materials = static_cast<int>(model.materials.size());
@@ -39,15 +50,22 @@ void tell_apart(std::vector<Material>& materials) {
   for (std::size_t i = 0; i < materials.size(); ++i) materials[i].name = std::move(names[i]);
 }
 
-Bounds bounds_of(const std::vector<Mesh>& meshes) {
-  Bounds bounds{meshes.front().vertices.front().position, meshes.front().vertices.front().position};
-  for (const Mesh& mesh : meshes) {
-    for (const Vertex& vertex : mesh.vertices) {
-      bounds.lower = glm::min(bounds.lower, vertex.position);
-      bounds.upper = glm::max(bounds.upper, vertex.position);
-    }
+/// All parts, measured from one origin.
+Model load_parts(const std::vector<PartSettings>& settings, const std::optional<PlacedBounds>& given) {
+  std::vector<Model> parts;
+  WideBounds bounds;
+  for (const PartSettings& part : settings) {
+    parts.push_back(load_part(part));
+    bounds.add(placed_bounds(part.placement, parts.back()));
   }
-  return bounds;
+  Model all;
+  all.origin = given ? given->origin : origin_for(bounds, parts.front().origin);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    place(settings[i].placement, all.origin, parts[i]);
+    add(all, std::move(parts[i]));
+  }
+  if (std::string warning = rounding_warning(bounds); !warning.empty()) add_once(all.warnings, std::move(warning));
+  return all;
 }
 
 /// Facets of a patch shadow each other as on a flat surface, so that no light comes from below its plane.
@@ -60,8 +78,9 @@ void require_horizon(const SceneSettings& settings) {
 }
 
 void set_camera(const SceneSettings& settings, const std::optional<Camera>& own, Scene& scene) {
-  if (const auto* placed = std::get_if<Camera>(&settings.camera)) {
-    scene.camera = *placed;
+  if (const auto* placed = std::get_if<PlacedCamera>(&settings.camera)) {
+    scene.camera = placed->lens;
+    scene.camera.world = look_at(placed->position - scene.origin, placed->target - scene.origin, placed->up);
     return;
   }
   const auto* framing = std::get_if<Framing>(&settings.camera);
@@ -78,6 +97,10 @@ void set_camera(const SceneSettings& settings, const std::optional<Camera>& own,
 }
 
 void set_lights(const SceneSettings& settings, const std::vector<Light>& own, Scene& scene) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    if (glm::vec3* const position = position_in(scene.lights[i]))
+      *position = glm::vec3(settings.light_positions[i] - scene.origin);
+  }
   if (settings.keep_model_lights) scene.lights.insert(scene.lights.begin(), own.begin(), own.end());
   if (settings.environment) scene.environment = make_environment(*settings.environment, scene.warnings);
   if (!scene.lights.empty() || scene.environment) return;
@@ -93,9 +116,8 @@ void set_lights(const SceneSettings& settings, const std::vector<Light>& own, Sc
   }
 }
 
-Scene assemble_scene(const SceneSettings& settings, const std::optional<Bounds>& bounds) {
-  Model model;
-  for (const PartSettings& part : settings.parts) add(model, load_part(part));
+Scene assemble_scene(const SceneSettings& settings, const std::optional<PlacedBounds>& bounds) {
+  Model model = load_parts(settings.parts, bounds);
   tell_apart(model.materials);
   Scene scene = settings.scene;
   if (model.meshes.empty()) {
@@ -107,7 +129,8 @@ Scene assemble_scene(const SceneSettings& settings, const std::optional<Bounds>&
   scene.choices = std::move(model.choices);
   scene.motion = model.motion;
   scene.warnings = std::move(model.warnings);
-  scene.bounds = bounds ? *bounds : bounds_of(scene.meshes);
+  scene.origin = model.origin;
+  scene.bounds = bounds ? bounds->bounds : bounds_of(scene.meshes);
   require_horizon(settings);
   set_camera(settings, model.camera, scene);
   set_lights(settings, model.lights, scene);

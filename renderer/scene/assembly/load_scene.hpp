@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/scene/model.hpp"
+#include "renderer/scene/origin.hpp"
 #include "renderer/scene/scene.hpp"
 #include "renderer/scene/settings/part.hpp"
 #include "renderer/scene/settings/scene.hpp"
@@ -14,15 +15,28 @@
 
 namespace footprint {
 
-/// Loads a part of a scene. It may have no triangles. Throws Error (usage): no candidate file exists, errors of its
-/// files, lobes of another distribution than the surface's own.
+/// Loads a part of a scene, before it is placed. It may have no triangles. Throws Error (usage): no candidate file
+/// exists, errors of its files, lobes of another distribution than the surface's own.
 [[nodiscard]] Model load_part(const PartSettings& settings);
+
+/// The bounds of a model once it is placed. Empty without a vertex.
+[[nodiscard]] WideBounds placed_bounds(const Placement& placement, const Model& model);
+
+/// Moves a model with its lights and its camera, whose strengths and angles stay.
+/// origin: what its positions are measured from afterwards.
+void place(const Placement& placement, const glm::dvec3& origin, Model& model);
+
+/// What the poses of an animation share, so that cameras and lights without a place of their own stay.
+struct PlacedBounds {
+  Bounds bounds;
+  glm::dvec3 origin{0.0};  ///< as Scene::origin
+};
 
 /// The settings of a scene before it is assembled, which may still be changed.
 struct SceneSource {
   SceneSettings settings{};
-  std::filesystem::path file{};    ///< of the settings; empty for a bare model
-  std::optional<Bounds> bounds{};  ///< none: those of its meshes
+  std::filesystem::path file{};          ///< of the settings; empty for a bare model
+  std::optional<PlacedBounds> bounds{};  ///< none: those of its meshes
 };
 
 /// Overrides of a scene's settings.
@@ -31,7 +45,7 @@ struct SceneOverrides {
   ModelSelection model;   ///< in the scene's only model file; its camera overrides the scene's
   std::optional<std::filesystem::path> environment;  ///< image that replaces the scene's environment
   std::optional<int> most_texels;                    ///< largest texels per side of generated surfaces
-  std::optional<Bounds>
+  std::optional<PlacedBounds>
       bounds;  ///< what cameras and lights without a place of their own go by; none: those of its meshes
 };
 

@@ -51,7 +51,8 @@ Patch patch_of_model(const MicrogeometrySettings& settings) {
   }
   patch.period = settings.period.value_or(glm::vec2(upper - lower));
   // Moves the tiling near the origin, because large coordinates would lose digits of the facets.
-  const glm::vec3 corner(glm::floor(glm::vec2(lower) / patch.period) * patch.period, lower.z);
+  const glm::dvec2 zero(model.origin.x, -model.origin.z), period(patch.period);
+  const glm::vec3 corner(glm::vec2(glm::floor((glm::dvec2(lower) + zero) / period) * period - zero), lower.z);
   for (glm::vec3& vertex : patch.vertices) vertex -= corner;
   return patch;
 }

@@ -98,6 +98,76 @@ TEST(Gltf, WebpTexturesAreReadBeforeTheirFallback) {
   EXPECT_EQ(load_gltf(quad.write()).materials.at(0).base_color_map->image.decoded().texels[0], 1.0F);
 }
 
+// The quad with eight sets of texture coordinates, set n shifted by n, and the sets of its three maps.
+GltfBuilder quad_with_sets(int normal, int base_color, int rough) {
+  GltfBuilder quad = make_quad();
+  json& primitive = quad.json["meshes"][0]["primitives"][0];
+  for (int set = 0; set < 8; ++set) {
+    const auto shift = static_cast<float>(set);
+    primitive["attributes"][fmt::format("TEXCOORD_{}", set)] =
+        quad.add_floats({shift, 0, shift + 1, 0, shift + 1, 1, shift, 1}, "VEC2");
+  }
+  const int texture = quad.add_texture(one_colour({128, 128, 255}));
+  const auto map = [&](int set) { return json{{"index", texture}, {"texCoord", set}}; };
+  quad.json["materials"] = {
+      {{"normalTexture", map(normal)},
+       {"pbrMetallicRoughness", {{"baseColorTexture", map(base_color)}, {"metallicRoughnessTexture", map(rough)}}}}};
+  primitive["material"] = 0;
+  return quad;
+}
+
+// The set of the file that a map looks up, by the values of the vertices.
+int set_of(const Model& model, const std::optional<TextureMap>& map) {
+  const Vertex& vertex = model.meshes.at(0).vertices.at(0);
+  const TextureCoordinates& coordinates = map.value().coordinates;
+  const float u = (coordinates.set == 1 ? vertex.uv1 : vertex.uv0).x;
+  const int set = static_cast<int>(u - 0.5F * (vertex.position.x + 1.0F));
+  EXPECT_EQ(coordinates.texcoord.value_or(coordinates.set), set);
+  return set;
+}
+
+TEST(Gltf, MapsReadAnySetOfTextureCoordinates) {
+  for (const int normal : {0, 1, 2, 7}) {
+    for (const int base : {0, 1, 2, 7}) {
+      const Model model = load_gltf(quad_with_sets(normal, base, normal).write());
+      const Material& material = model.materials.at(0);
+      EXPECT_EQ(set_of(model, material.normal_map), normal);
+      EXPECT_EQ(set_of(model, material.base_color_map), base);
+      EXPECT_EQ(set_of(model, material.metallic_roughness_map), normal);
+      EXPECT_TRUE(model.warnings.empty()) << normal << ", " << base;
+    }
+  }
+}
+
+TEST(Gltf, MapsOfAThirdSetAreLeftOutButNotTheNormals) {
+  const Model model = load_gltf(quad_with_sets(5, 0, 3).write());
+  EXPECT_EQ(set_of(model, model.materials.at(0).normal_map), 5);
+  EXPECT_EQ(set_of(model, model.materials[0].base_color_map), 0);
+  EXPECT_FALSE(model.materials[0].metallic_roughness_map);
+  EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "TEXCOORD_3"));
+  GltfBuilder coated = quad_with_sets(5, 0, 5);
+  json& coat = coated.json["materials"][0]["extensions"]["KHR_materials_clearcoat"];
+  coat = {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", {{"index", 0}, {"texCoord", 4}}}};
+  const Model with_coat = load_gltf(coated.write());
+  EXPECT_EQ(set_of(with_coat, with_coat.materials.at(0).normal_map), 5);
+  EXPECT_EQ(set_of(with_coat, with_coat.materials[0].coat.value().normal_map), 4);
+  EXPECT_FALSE(with_coat.materials[0].base_color_map);
+}
+
+TEST(Gltf, CoatsWhoseNormalsAreTurnedOtherwiseAreNamed) {
+  const auto warnings = [](const json& coat_transform) {
+    GltfBuilder quad = quad_with_sets(0, 0, 0);
+    json map{{"index", 0}};
+    map["extensions"]["KHR_texture_transform"] = coat_transform;
+    quad.json["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1},
+                                                                          {"clearcoatNormalTexture", map}};
+    return fmt::format("{}", fmt::join(load_gltf(quad.write()).warnings, "; "));
+  };
+  EXPECT_EQ(warnings({{"scale", {3, 2}}, {"offset", {0.5, 0}}}), "");
+  for (const json& turned : {json{{"rotation", 0.3}}, json{{"scale", {-1, 1}}}, json{{"texCoord", 2}}})
+    EXPECT_TRUE(says(warnings(turned), "turned against the one below")) << turned;
+}
+
 TEST(Gltf, MapsAreDecodedAndShared) {
   GltfBuilder quad = make_quad();
   Image stored(2, 2, 3, 1.0F);

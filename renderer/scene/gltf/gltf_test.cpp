@@ -359,6 +359,89 @@ TEST(Gltf, PunctualLightsAreTakenExactly) {
   EXPECT_FALSE(spot.point.range);
 }
 
+// The quad with one light of a node, below a node with `above`.
+GltfBuilder lit_quad(const json& light, const json& node = json::object(), const json& above = json::object()) {
+  GltfBuilder quad = make_quad();
+  quad.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+  quad.json["nodes"] = {{{"mesh", 0}}, node, above};
+  quad.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  quad.json["nodes"][2]["children"] = {1};
+  quad.json["scenes"][0]["nodes"] = {0, 2};
+  return quad;
+}
+
+TEST(Gltf, ConesWithoutAnInnerPartAreHard) {
+  const auto cone = [](double inner, double outer) {
+    return lit_quad({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}});
+  };
+  for (const auto& [inner, outer] :
+       {std::pair{0.4, 0.4}, {0.7853981633974484, 0.785398163397448}, {0.39999999999, 0.4}, {1.5707964, 1.5707964}}) {
+    const Model model = load_gltf(cone(inner, outer).write());
+    const auto& spot = std::get<SpotLight>(model.lights.at(0));
+    EXPECT_EQ(spot.inner_cone_angle, spot.outer_cone_angle);
+    EXPECT_EQ(spot.outer_cone_angle, static_cast<float>(outer));
+    EXPECT_TRUE(mentions(model.warnings, "hard edge")) << inner;
+  }
+  EXPECT_TRUE(load_gltf(cone(0.3, 0.4).write()).warnings.empty());
+  for (const auto& [inner, outer] : {std::pair{0.5, 0.4}, {-0.1, 0.4}, {0.1, 1.6}, {0.0, 0.0}})
+    EXPECT_NE(test::usage_error([&] { return load_gltf(cone(inner, outer).write()); }), "") << inner;
+}
+
+TEST(Gltf, LightsHaveTheValuesThatTheFormatSupplies) {
+  const auto light = [](const json& source) { return load_gltf(lit_quad(source).write()).lights.at(0); };
+  const auto spot = std::get<SpotLight>(light({{"type", "spot"}, {"spot", json::object()}}));
+  EXPECT_EQ(spot.inner_cone_angle, 0.0F);
+  EXPECT_FLOAT_EQ(spot.outer_cone_angle, std::numbers::pi_v<float> / 4.0F);
+  EXPECT_EQ(spot.point.intensity, glm::vec3(1.0F));
+  EXPECT_FALSE(spot.point.range);
+  const Model no_range = load_gltf(lit_quad({{"type", "point"}, {"range", 0}}).write());
+  EXPECT_FALSE(std::get<PointLight>(no_range.lights.at(0)).range);
+  EXPECT_TRUE(mentions(no_range.warnings, "range of 0"));
+}
+
+TEST(Gltf, LightsThatAreScaledToNothingAreLeftOut) {
+  const json nothing{{"scale", {0, 0, 0}}}, flat{{"scale", {1, 1, 0}}}, whole = json::object();
+  const json spot{{"type", "spot"}, {"spot", json::object()}}, point{{"type", "point"}}, sun{{"type", "directional"}};
+  for (const json& light : {spot, point, sun}) {
+    for (const auto& [node, above] : {std::pair{nothing, whole}, {whole, nothing}}) {
+      const Model model = load_gltf(lit_quad(light, node, above).write());
+      EXPECT_TRUE(model.lights.empty()) << light;
+      EXPECT_TRUE(mentions(model.warnings, "scales it to nothing")) << light;
+    }
+    const Model model = load_gltf(lit_quad(light, flat).write());  // a point needs no direction
+    EXPECT_EQ(model.lights.size(), light == point ? 1U : 0U) << light;
+  }
+}
+
+// Node 1 is below node 0; meshes and lights of hidden nodes are left out, cameras stay.
+TEST(Gltf, HiddenNodesAreLeftOutWithAllBelow) {
+  const auto model_of = [](const std::optional<bool>& parent, const std::optional<bool>& child) {
+    GltfBuilder quad = make_quad();
+    quad.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    quad.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    quad.json["nodes"] = {{{"children", {1}}}, {{"mesh", 0}, {"camera", 0}}, {{"mesh", 0}}};
+    quad.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    quad.json["scenes"][0]["nodes"] = {0, 2};
+    quad.json["extensionsUsed"] = quad.json["extensionsRequired"] = {"KHR_node_visibility"};
+    if (parent) quad.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = *parent;
+    if (child) quad.json["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = *child;
+    return load_gltf(quad.write());
+  };
+  for (const auto& [parent, child, visible] : {std::tuple<std::optional<bool>, std::optional<bool>, bool>{{}, {}, true},
+                                               {true, true, true},
+                                               {true, {}, true},
+                                               {{}, false, false},
+                                               {false, {}, false},
+                                               {false, true, false},
+                                               {true, false, false}}) {
+    const Model model = model_of(parent, child);
+    EXPECT_EQ(model.meshes.at(0).indices.size(), visible ? 12U : 6U);
+    EXPECT_EQ(model.lights.size(), visible ? 1U : 0U);
+    EXPECT_TRUE(model.camera);
+    EXPECT_TRUE(model.warnings.empty());
+  }
+}
+
 TEST(Gltf, PointsAndLinesAreLeftOutOnce) {
   GltfBuilder quad = make_quad();
   auto& primitives = quad.json["meshes"][0]["primitives"];

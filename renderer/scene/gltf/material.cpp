@@ -135,6 +135,66 @@ struct Texture {
   std::size_t image;
 };
 
+// The maps of a material of glTF, those first whose loss would change most.
+std::vector<std::optional<TextureMap>*> optional_maps(Material& material) {
+  std::vector<std::optional<TextureMap>*> maps{&material.normal_map};
+  if (material.coat) maps.push_back(&material.coat->normal_map);
+  maps.insert(maps.end(), {&material.base_color_map, &material.metallic_roughness_map, &material.specular_map});
+  if (material.coat) maps.insert(maps.end(), {&material.coat->weight_map, &material.coat->roughness_map});
+  std::erase_if(maps, [](const std::optional<TextureMap>* map) { return !*map; });
+  return maps;
+}
+
+// The two sets that vertices get: 0 and the other one that maps use, else the first two in the order of maps.
+UvSets chosen_sets(const std::vector<std::optional<TextureMap>*>& maps) {
+  std::vector<int> used;
+  for (const std::optional<TextureMap>* map : maps) {
+    const int set = (*map)->coordinates.set;
+    if (std::ranges::find(used, set) == used.end()) used.push_back(set);
+  }
+  if (std::ranges::all_of(used, [](int set) { return set < 2; })) return {0, 1};
+  if (used.size() == 1) return {0, used[0]};
+  return used[1] == 0 ? UvSets{0, used[0]} : UvSets{used[0], used[1]};
+}
+
+// Numbers the sets of a file's maps as a mesh's two. A map of a third set is left out, with a warning.
+UvSets take_sets(Material& material, std::vector<std::string>& warnings) {
+  const std::vector<std::optional<TextureMap>*> maps = optional_maps(material);
+  const UvSets sets = chosen_sets(maps);
+  for (std::optional<TextureMap>* map : maps) {
+    const int set = (*map)->coordinates.set;
+    if (const auto* const slot = std::ranges::find(sets, set); slot != sets.end()) {
+      (*map)->coordinates.set = static_cast<int>(slot - sets.begin());
+      if ((*map)->coordinates.set != set) (*map)->coordinates.texcoord = set;
+      continue;
+    }
+    add_once(warnings, fmt::format("`{}`: its map {} is left out: it uses TEXCOORD_{}, and vertices have two sets, {} "
+                                   "and {}",
+                                   material.name, (*map)->name, set, sets[0], sets[1]));
+    map->reset();
+  }
+  return sets;
+}
+
+// Whether u and v of two maps grow in the same directions on every surface.
+bool share_directions(const TextureCoordinates& a, const TextureCoordinates& b) {
+  if (a.set != b.set) return false;
+  for (int row = 0; row < 2; ++row) {
+    const glm::vec2 one{a.transform[0][row], a.transform[1][row]}, two{b.transform[0][row], b.transform[1][row]};
+    const float size = glm::length(one) * glm::length(two);
+    if (!(glm::dot(one, two) >= (1.0F - 1e-6F) * size)) return false;
+  }
+  return true;
+}
+
+void warn_of_coat(const Material& material, std::vector<std::string>& warnings) {
+  if (!material.normal_map || !material.coat || !material.coat->normal_map) return;
+  if (share_directions(material.normal_map->coordinates, material.coat->normal_map->coordinates)) return;
+  add_once(warnings, fmt::format("`{}`: the normal map of its coat is turned against the one below, whose tangents it "
+                                 "is read with",
+                                 material.name));
+}
+
 class Converter {
  public:
   Converter(const GltfDocument& document, std::vector<std::string>& warnings, std::map<std::string, MapTexels>& maps)
@@ -283,11 +343,6 @@ class Converter {
     coordinates.set = reference.value("texCoord", 0);
     if (const Pointer transform("/extensions/KHR_texture_transform"); reference.contains(transform))
       apply_transform(reference[transform], coordinates);
-    if (coordinates.set > 1) {
-      add_once(warnings_, fmt::format("{} uses texture coordinate set {}, only 0 and 1 are read: it is left out", place,
-                                      coordinates.set));
-      return std::nullopt;
-    }
     if (source.contains("sampler")) {
       const auto number = source["sampler"].get<std::size_t>();
       const Json& sampler = document_.json["samplers"][number];
@@ -413,10 +468,13 @@ int GltfMaterials::use(int gltf_index) {
   const auto [entry, is_new] = indices_.emplace(gltf_index, static_cast<int>(materials_.size()));
   if (!is_new) return entry->second;
   Material& material = materials_.emplace_back();
+  UvSets& sets = sets_.emplace_back(UvSets{0, 1});
   material.name = "default";
   if (gltf_index < 0) return entry->second;
   try {
     material = Converter(document_, warnings_, maps_).convert(gltf_index);
+    sets = take_sets(material, warnings_);
+    warn_of_coat(material, warnings_);
   } catch (const Error& error) {
     const std::string name = document_.json["materials"][static_cast<std::size_t>(gltf_index)].value("name", "");
     throw error.within(fmt::format("materials[{}] `{:.80}`", gltf_index, name));

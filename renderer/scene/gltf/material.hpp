@@ -1,6 +1,7 @@
 // glTF materials and their textures, converted when first used.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -17,6 +18,9 @@ namespace footprint {
 /// The decoded bytes of all materials' maps, by the headers of their images.
 [[nodiscard]] std::uint64_t decoded_map_bytes(const GltfDocument& document);
 
+/// The TEXCOORD_n of a file that are the two sets of a mesh's vertices.
+using UvSets = std::array<int, 2>;
+
 /// Converts the materials that meshes use. Shared textures are decoded once.
 class GltfMaterials {
  public:
@@ -29,11 +33,14 @@ class GltfMaterials {
   [[nodiscard]] int use(int gltf_index);
 
   [[nodiscard]] const std::vector<Material>& materials() const { return materials_; }
+  /// The sets that the maps of materials()[index] look up.
+  [[nodiscard]] const UvSets& sets(int index) const { return sets_[static_cast<std::size_t>(index)]; }
 
  private:
   const GltfDocument& document_;
   std::vector<std::string>& warnings_;
   std::vector<Material> materials_;
+  std::vector<UvSets> sets_;
   std::map<int, int> indices_;
   std::map<std::string, MapTexels> maps_;  ///< by image, use and factors
 };

@@ -1,9 +1,10 @@
-// Reads the attributes, moves them into the world, and repairs or computes the normals and tangents.
+// Reads the attributes, gives vertices their tangents, moves them into the world, and repairs frames.
 #include "renderer/scene/gltf/pose.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
@@ -12,6 +13,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/model.hpp"
+#include "renderer/scene/tangents.hpp"
 
 namespace footprint {
 namespace {
@@ -117,12 +119,15 @@ void read_colors(Builder& builder) {
   builder.warn(replaced, "vertex colours that are not finite were set to white");
 }
 
-void check_map_coordinates(const Builder& builder, const Material& material, bool has_set0, bool has_set1) {
+/// Reads the sets that the maps of a material use as the two of its vertices.
+void read_map_coordinates(Builder& builder, const Material& material, const UvSets& sets) {
+  const std::array<bool, 2> has{read_texture_coordinates(builder, fmt::format("TEXCOORD_{}", sets[0]), &Vertex::uv0),
+                                read_texture_coordinates(builder, fmt::format("TEXCOORD_{}", sets[1]), &Vertex::uv1)};
   for (const TextureMap* map : maps_of(material)) {
-    const int set = map->coordinates.set;
-    if (set == 0 ? has_set0 : has_set1) continue;
+    const auto set = static_cast<std::size_t>(map->coordinates.set);
+    if (has.at(set)) continue;
     add_once(builder.warnings, fmt::format("{}: no TEXCOORD_{} for the maps of `{}`, its maps show one texel",
-                                           builder.place, set, material.name));
+                                           builder.place, sets.at(set), material.name));
   }
 }
 
@@ -193,11 +198,58 @@ std::vector<glm::dmat4> skinned(Builder& builder, const std::vector<glm::dmat4>&
   return out;
 }
 
+/// What moves each vertex of a file into the world.
+class Movement {
+ public:
+  Movement(const MeshPose& pose, std::vector<glm::dmat4> by_joints)
+      : world_(pose.world), by_joints_(std::move(by_joints)), mirrored_(mirrors(pose.world)) {}
+
+  /// vertex: of the file.
+  [[nodiscard]] const glm::dmat4& matrix(std::uint32_t vertex) const {
+    return by_joints_.empty() ? world_ : by_joints_[vertex];
+  }
+  [[nodiscard]] bool is_mirrored(std::uint32_t vertex) const {
+    return by_joints_.empty() ? mirrored_ : mirrors(by_joints_[vertex]);
+  }
+
+ private:
+  static bool mirrors(const glm::dmat4& matrix) { return glm::determinant(glm::dmat3{matrix}) < 0.0; }
+
+  glm::dmat4 world_;
+  std::vector<glm::dmat4> by_joints_;  // replace `world_` (glTF 2.0, section 3.7.3.3)
+  bool mirrored_;
+};
+
+/// Where used vertices of a primitive are in the world.
+WideBounds triangle_bounds(Builder& builder, const MeshPose& pose) {
+  constexpr double farthest = 1e15;  // metres: squares of it still fit a float
+  WideBounds bounds;
+  if (builder.primitive.value("mode", mode_triangles) < mode_triangles) return bounds;
+  read_positions(builder);
+  if (builder.vertices.empty()) return bounds;
+  morph(builder, pose.weights);
+  read_triangles(builder);
+  const Movement movement(pose, pose.joints.empty() ? std::vector<glm::dmat4>() : skinned(builder, pose.joints));
+  std::vector<bool> seen(builder.vertices.size(), false);
+  for (const std::uint32_t index : builder.indices) {
+    if (seen[index]) continue;
+    seen[index] = true;
+    const glm::dvec3 at{movement.matrix(index) * glm::dvec4{glm::dvec3{builder.vertices[index].position}, 1.0}};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(at[axis]) <= farthest))
+        refuse_gltf(fmt::format("vertex {}", index), fmt::format("is beyond {:g} m in the world", farthest));
+    }
+    bounds.add(at);
+  }
+  return bounds;
+}
+
 /// Into the world. Normals go by the inverse transpose, which is the cofactor matrix over the determinant.
-void move(Vertex& vertex, const glm::dmat4& world, double sign) {
+void move(Vertex& vertex, const glm::dmat4& world, bool mirrored) {
   const glm::dmat3 linear{world};
   const glm::dmat3 cofactors{glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                              glm::cross(linear[0], linear[1])};
+  const double sign = mirrored ? -1.0 : 1.0;
   vertex.position = glm::vec3{world * glm::dvec4{glm::dvec3{vertex.position}, 1.0}};
   // Through double and scaled to about 1: tiny node scales would underflow in float.
   const glm::dvec3 normal = sign * (cofactors * glm::dvec3{vertex.normal});
@@ -208,23 +260,25 @@ void move(Vertex& vertex, const glm::dmat4& world, double sign) {
   vertex.tangent = {direction, (vertex.tangent.w < 0.0F ? -1.0F : 1.0F) * static_cast<float>(sign)};
 }
 
-/// A mirroring transform of a node turns the winding and the handedness of the tangent frame round. Joints replace it.
-void transform(Builder& builder, const MeshPose& pose) {
-  const std::vector<glm::dmat4> by_joints =
-      pose.joints.empty() ? std::vector<glm::dmat4>() : skinned(builder, pose.joints);
-  const double sign = by_joints.empty() && glm::determinant(glm::dmat3{pose.world}) < 0.0 ? -1.0 : 1.0;
-  constexpr float farthest = 1e15F;  // squares of it still fit a float
-  for (std::size_t i = 0; i < builder.vertices.size(); ++i) {
-    Vertex& vertex = builder.vertices[i];
-    move(vertex, by_joints.empty() ? pose.world : by_joints[i], sign);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(std::abs(vertex.position[axis]) <= farthest))
-        refuse_gltf(fmt::format("vertex {}", i), fmt::format("is beyond {:g} m in the world", farthest));
-    }
+void move_vertices(Builder& builder, const Movement& movement, const std::vector<std::uint32_t>& file_vertices) {
+  std::vector<bool> moved(builder.vertices.size(), false);
+  for (std::size_t corner = 0; corner < builder.indices.size(); ++corner) {
+    const std::uint32_t index = builder.indices[corner], file_vertex = file_vertices[corner];
+    if (moved[index]) continue;
+    moved[index] = true;
+    move(builder.vertices[index], movement.matrix(file_vertex), movement.is_mirrored(file_vertex));
   }
-  if (sign > 0.0) return;
-  for (std::size_t i = 0; i + 2 < builder.indices.size(); i += 3)
-    std::swap(builder.indices[i + 1], builder.indices[i + 2]);
+}
+
+/// A mirroring transform turns the winding round. Of a triangle whose joints differ in that, most corners decide.
+void turn_mirrored_triangles(Builder& builder, const Movement& movement,
+                             const std::vector<std::uint32_t>& file_vertices) {
+  for (std::size_t i = 0; i + 2 < builder.indices.size(); i += 3) {
+    int mirrored = 0;
+    for (std::size_t corner = i; corner < i + 3; ++corner)
+      mirrored += movement.is_mirrored(file_vertices[corner]) ? 1 : 0;
+    if (mirrored >= 2) std::swap(builder.indices[i + 1], builder.indices[i + 2]);
+  }
 }
 
 // Those of the normal map; where only the coat has one, of the coat's.
@@ -233,21 +287,40 @@ TextureCoordinates tangent_coordinates(const Material& material) {
   return material.coat && material.coat->normal_map ? material.coat->normal_map->coordinates : TextureCoordinates{};
 }
 
-void complete_frames(Builder& builder, const Material& material) {
+/// Gives the vertices tangents in the space of the mesh, before nodes and joints move it (glTF 2.0, section 3.7.2.1).
+void add_tangents(Builder& builder, const Material& material) {
+  if (!builder.has_normals) make_flat_normals(builder.vertices, builder.indices);
+  if (builder.has_tangents) {
+    turn_tangents(builder.vertices, builder.indices, tangent_coordinates(material));
+  } else {
+    compute_tangents(builder.vertices, builder.indices, tangent_coordinates(material));
+  }
+}
+
+/// Makes the frames orthonormal that were moved into the world.
+void complete_frames(Builder& builder) {
   if (builder.has_normals) {
     builder.warn(repair_normals(builder.vertices, builder.indices),
                  "normals without a direction were replaced by the triangles' own");
   } else {
     make_flat_normals(builder.vertices, builder.indices);
   }
-  if (builder.has_tangents) {
-    builder.warn(repair_tangents(builder.vertices), "tangents without a direction were replaced");
-  } else {
-    compute_tangents(builder.vertices, builder.indices, tangent_coordinates(material));
-  }
+  const std::size_t replaced = repair_tangents(builder.vertices);
+  if (builder.has_tangents) builder.warn(replaced, "tangents without a direction were replaced");
 }
 
-std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Material& material) {
+/// Frames and positions in the world.
+void place(Builder& builder, const MeshPose& pose, const Material& material) {
+  const Movement movement(pose, pose.joints.empty() ? std::vector<glm::dmat4>() : skinned(builder, pose.joints));
+  const std::vector<std::uint32_t> file_vertices = builder.indices;  // of each corner
+  add_tangents(builder, material);
+  move_vertices(builder, movement, file_vertices);
+  turn_mirrored_triangles(builder, movement, file_vertices);
+  drop_unused_vertices(builder.vertices, builder.indices);
+  complete_frames(builder);
+}
+
+std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Material& material, const UvSets& sets) {
   const int mode = builder.primitive.value("mode", mode_triangles);
   if (mode > mode_fan) refuse_gltf("mode", fmt::format("{} is none of 0 to 6", mode));
   if (mode < mode_triangles) {
@@ -261,34 +334,48 @@ std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Materi
   }
   read_frames(builder);
   morph(builder, pose.weights);
-  const bool has_set0 = read_texture_coordinates(builder, "TEXCOORD_0", &Vertex::uv0);
-  const bool has_set1 = read_texture_coordinates(builder, "TEXCOORD_1", &Vertex::uv1);
-  check_map_coordinates(builder, material, has_set0, has_set1);
+  read_map_coordinates(builder, material, sets);
   read_colors(builder);
   if (builder.primitive["attributes"].contains("COLOR_1")) {
     add_once(builder.warnings, "vertex colours beyond the first set are left out");
   }
   read_triangles(builder);
   if (builder.indices.empty()) return std::nullopt;
-  transform(builder, pose);
-  drop_unused_vertices(builder.vertices, builder.indices);
-  complete_frames(builder, material);
+  place(builder, pose, material);
   return Mesh{builder.place, std::move(builder.vertices), std::move(builder.indices), 0};
+}
+
+Builder builder_of(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
+                   std::vector<std::string>& warnings) {
+  const Json& mesh = document.json["meshes"][mesh_index];
+  return {document, mesh["primitives"][primitive_index], warnings,
+          fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.value("name", ""), primitive_index)};
+}
+
+/// Adds the place of a primitive to the errors of an action on it.
+template <class Action>
+auto within_place(const Builder& builder, const Action& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    throw error.within(builder.place);
+  }
 }
 
 }  // namespace
 
+WideBounds primitive_bounds(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
+                            const MeshPose& pose) {
+  std::vector<std::string> told_by_conversion;
+  Builder builder = builder_of(document, mesh_index, primitive_index, told_by_conversion);
+  return within_place(builder, [&] { return triangle_bounds(builder, pose); });
+}
+
 std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
-                                      const MeshPose& pose, const Material& material,
+                                      const MeshPose& pose, const Material& material, const UvSets& sets,
                                       std::vector<std::string>& warnings) {
-  const Json& mesh = document.json["meshes"][mesh_index];
-  Builder builder{document, mesh["primitives"][primitive_index], warnings,
-                  fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.value("name", ""), primitive_index)};
-  try {
-    return convert(builder, pose, material);
-  } catch (const Error& error) {
-    throw error.within(builder.place);
-  }
+  Builder builder = builder_of(document, mesh_index, primitive_index, warnings);
+  return within_place(builder, [&] { return convert(builder, pose, material, sets); });
 }
 
 }  // namespace footprint

@@ -38,21 +38,28 @@ glm::dvec3 view_direction(const glm::dmat4& world, const std::string& place) {
   return -axis / length;
 }
 
-glm::vec3 position_of(const glm::dmat4& world, const std::string& place) {
-  const glm::dvec3 position{world[3]};
-  require(glm::length(position) <= largest, place, fmt::format("is beyond {:g} m in the world", largest));
-  return glm::vec3{position};
+/// Where a light or a camera is.
+struct Placing {
+  std::string place;         ///< in the file, for messages
+  const glm::dmat4& world;   ///< of its node
+  const glm::dvec3& origin;  ///< of the model
+};
+
+glm::vec3 position_of(const Placing& placing) {
+  const glm::dvec3 position{placing.world[3]};
+  require(glm::length(position) <= largest, placing.place, fmt::format("is beyond {:g} m in the world", largest));
+  return glm::vec3{position - placing.origin};
 }
 
 /// The rigid part of a transform, right-handed. It preserves the -z axis, and the y axis as far as possible.
-glm::mat4 rigid_part(const glm::dmat4& world, const std::string& place) {
-  const glm::dvec3 back = -view_direction(world, place);
-  const glm::dvec3 right = glm::cross(glm::dvec3{world[1]}, back);
+glm::mat4 rigid_part(const Placing& placing) {
+  const glm::dvec3 back = -view_direction(placing.world, placing.place);
+  const glm::dvec3 right = glm::cross(glm::dvec3{placing.world[1]}, back);
   const double length = glm::length(right);
-  require(std::isfinite(length) && length > 0.0, place, "its node's transform leaves it no upright");
+  require(std::isfinite(length) && length > 0.0, placing.place, "its node's transform leaves it no upright");
   const glm::dvec3 x = right / length;
   return glm::mat4{glm::dmat4{glm::dvec4{x, 0.0}, glm::dvec4{glm::cross(back, x), 0.0}, glm::dvec4{back, 0.0},
-                              glm::dvec4{glm::dvec3{position_of(world, place)}, 1.0}}};
+                              glm::dvec4{glm::dvec3{position_of(placing)}, 1.0}}};
 }
 
 Camera convert_perspective(const Json& source, const std::string& place) {
@@ -85,45 +92,68 @@ Camera convert_orthographic(const Json& source, const std::string& place) {
   return camera;
 }
 
-Camera convert_camera(const Json& document, std::size_t index, const glm::dmat4& world) {
-  const Json& source = document["cameras"][index];
-  const std::string place = fmt::format("cameras[{}]", index), type = source["type"];
+Camera convert_camera(const Json& source, const Placing& placing) {
+  const std::string& place = placing.place;
+  const std::string type = source["type"];
   require(type == "perspective" || type == "orthographic", place,
           fmt::format("`{:.40}` is none of perspective, orthographic", type));
   const Json projection = source.value(type, Json::object());
   Camera camera =
       type == "perspective" ? convert_perspective(projection, place) : convert_orthographic(projection, place);
-  camera.world = rigid_part(world, place);
+  camera.world = rigid_part(placing);
   return camera;
 }
 
-Light convert_light(const Json& source, std::size_t index, const glm::dmat4& world) {
-  const std::string place = fmt::format("KHR_lights_punctual.lights[{}]", index);
+PointLight convert_point(const Json& source, const Placing& placing, std::vector<std::string>& warnings) {
   const double intensity = source.value("intensity", 1.0), range = source.value("range", 0.0);
-  require(intensity >= 0.0 && intensity < largest, place, "intensity must not be negative");
-  require(range >= 0.0 && range < largest, place, "range must not be negative");
-  const auto values = source.value("color", std::vector(3, 1.0));
-  for (const double value : values) require(value >= 0.0 && value < 1e6, place, "color must not be negative");
-  const glm::vec3 power{glm::dvec3(glm::make_vec3(values.data())) * intensity};
-  const std::string type = source["type"];
-  if (type == "directional") return DirectionalLight{glm::vec3{view_direction(world, place)}, power};
-
-  PointLight point{position_of(world, place), power, std::nullopt};
+  require(range >= 0.0 && range < largest, placing.place, "range must not be negative");
+  if (source.contains("range") && range == 0.0)
+    add_once(warnings, placing.place + ": its range of 0 counts as none, because a range is above 0");
+  const auto color = source.value("color", std::vector(3, 1.0));
+  PointLight point{position_of(placing), glm::vec3{glm::dvec3(glm::make_vec3(color.data())) * intensity}, std::nullopt};
   if (range > 0.0) point.range = static_cast<float>(range);
-  if (type == "point") return point;
-  require(type == "spot", place, "is none of point, spot, directional");
-  require(source.contains("spot"), place, "needs `spot`, as its type is");
+  return point;
+}
+
+SpotLight convert_spot(const Json& source, const Placing& placing, std::vector<std::string>& warnings) {
+  require(source.contains("spot"), placing.place, "needs `spot`, as its type is");
+  constexpr double rounding = 1e-6;
   const Json& spot = source["spot"];
   const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", std::numbers::pi / 4.0);
-  require(inner >= 0.0 && inner < outer && outer <= std::numbers::pi / 2 + 1e-6, place,
-          "needs 0 <= innerConeAngle < outerConeAngle <= pi / 2");
-  return SpotLight{point, glm::vec3{view_direction(world, place)}, static_cast<float>(inner),
-                   static_cast<float>(outer)};
+  require(inner >= 0.0 && inner <= outer + rounding && outer > 0.0 && outer <= std::numbers::pi / 2 + rounding,
+          placing.place, "needs 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+  SpotLight light{convert_point(source, placing, warnings), glm::vec3{view_direction(placing.world, placing.place)}};
+  light.outer_cone_angle = static_cast<float>(outer);
+  light.inner_cone_angle = std::min(static_cast<float>(inner), light.outer_cone_angle);
+  if (light.inner_cone_angle == light.outer_cone_angle)
+    add_once(warnings, placing.place + ": its cone has a hard edge, because both of its angles are equal");
+  return light;
+}
+
+/// None, with a warning, if a node scales the light to nothing (glTF 2.0, section 3.7.3.1: so scenes hide content).
+std::optional<Light> convert_light(const Json& source, const Placing& placing, std::vector<std::string>& warnings) {
+  const std::string type = source["type"];
+  require(type == "point" || type == "spot" || type == "directional", placing.place,
+          "is none of point, spot, directional");
+  const double intensity = source.value("intensity", 1.0);
+  require(intensity >= 0.0 && intensity < largest, placing.place, "intensity must not be negative");
+  for (const double value : source.value("color", std::vector(3, 1.0)))
+    require(value >= 0.0 && value < 1e6, placing.place, "color must not be negative");
+  const glm::dmat3 axes{placing.world};
+  if (axes == glm::dmat3{0.0} || (type != "point" && axes[2] == glm::dvec3{0.0})) {
+    add_once(warnings, placing.place + " is left out, because its node or one above scales it to nothing");
+    return std::nullopt;
+  }
+  if (type == "spot") return convert_spot(source, placing, warnings);
+  const PointLight point = convert_point(source, placing, warnings);
+  if (type == "point") return point;
+  return DirectionalLight{glm::vec3{view_direction(placing.world, placing.place)}, point.intensity};
 }
 
 using Pointer = Json::json_pointer;
 
-const Pointer lights("/extensions/KHR_lights_punctual/lights"), node_light("/extensions/KHR_lights_punctual/light");
+const Pointer lights("/extensions/KHR_lights_punctual/lights"), node_light("/extensions/KHR_lights_punctual/light"),
+    node_visible("/extensions/KHR_node_visibility/visible");
 
 /// The entries of one kind, with the index of the `wanted` one; else `otherwise`, if there are any.
 ModelChoice choose(const Json& document, const char* kind, const Pointer& entries,
@@ -171,72 +201,105 @@ Nodes root_nodes(const Json& document, const std::optional<std::size_t>& scene) 
 }
 
 /// A camera with its node's transform.
-struct PlacedCamera {
+struct NodeCamera {
   std::string name;
   std::size_t camera;
   glm::dmat4 world;
 };
 
-/// Walks the hierarchy and collects the content of nodes.
+/// Calls `visit` with each node of a scene, parents first, its transform, and whether it is visible.
+template <class Visit>
+void walk(const Pose& pose, const Nodes& roots, const Visit& visit) {
+  struct Pending {
+    std::size_t node;
+    glm::dmat4 parent;
+    bool visible;
+    int depth;
+  };
+  std::vector<Pending> stack;
+  std::vector<bool> seen(pose.nodes.size(), false);
+  const auto push = [&](const Nodes& nodes, const glm::dmat4& parent, bool visible, int depth) {
+    std::for_each(nodes.rbegin(), nodes.rend(), [&](std::size_t node) {
+      stack.push_back({node, parent, visible, depth});
+    });
+  };
+  push(roots, glm::dmat4{1.0}, true, 1);
+  while (!stack.empty()) {
+    throw_if_interrupted();
+    const auto [index, parent, above, depth] = stack.back();
+    stack.pop_back();
+    const std::string place = fmt::format("nodes[{}]", index);
+    if (seen[index]) refuse_gltf(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
+    seen[index] = true;
+    if (depth > deepest_node) refuse_gltf(place, fmt::format("is more than {} nodes deep", deepest_node));
+    const Json& node = pose.nodes[index];
+    const glm::dmat4 world = parent * local_transform(node, place);
+    const bool visible = above && node.value(node_visible, true);
+    visit(node, world, visible);
+    push(children_of(node, "children"), world, visible, depth + 1);
+  }
+}
+
+/// The bounds of all visible triangles in the world.
+WideBounds bounds_of_scene(const GltfDocument& document, const Pose& pose, const Nodes& roots) {
+  WideBounds bounds;
+  walk(pose, roots, [&](const Json& node, const glm::dmat4& world, bool visible) {
+    if (!visible || !node.contains("mesh")) return;
+    const auto mesh = node["mesh"].get<std::size_t>();
+    const MeshPose posed = mesh_pose(document, pose, node, world);
+    for (std::size_t i = 0; i < document.json["meshes"][mesh]["primitives"].size(); ++i)
+      bounds.add(primitive_bounds(document, mesh, i, posed));
+  });
+  return bounds;
+}
+
+/// Collects the content of nodes.
 class Gatherer {
  public:
   Gatherer(const GltfDocument& document, const Pose& pose, const std::optional<std::size_t>& variant, Model& result)
       : document_(document), pose_(pose), variant_(variant), result_(result), materials_(document, result.warnings) {}
 
   void gather(const Nodes& roots) {
-    std::vector<Pending> stack;
-    std::vector<bool> seen(pose_.nodes.size(), false);
-    const auto push = [&](const Nodes& nodes, const glm::dmat4& parent, int depth) {
-      std::for_each(nodes.rbegin(), nodes.rend(), [&](std::size_t node) { stack.push_back({node, parent, depth}); });
-    };
-    push(roots, glm::dmat4{1.0}, 1);
-    while (!stack.empty()) {
-      throw_if_interrupted();
-      const auto [index, parent, depth] = stack.back();
-      stack.pop_back();
-      const std::string place = fmt::format("nodes[{}]", index);
-      if (seen[index])
-        refuse_gltf(place, "is reached twice: the nodes are a cycle or share a child, glTF wants a tree");
-      seen[index] = true;
-      if (depth > deepest_node) refuse_gltf(place, fmt::format("is more than {} nodes deep", deepest_node));
-      const Json& node = pose_.nodes[index];
-      const glm::dmat4 world = parent * local_transform(node, place);
-      gather_node(node, world);
-      push(children_of(node, "children"), world, depth + 1);
-    }
+    walk(pose_, roots, [&](const Json& node, const glm::dmat4& world, bool visible) {
+      add_camera(node, world);
+      if (!visible) return;
+      add_light(node, world);
+      add_mesh(node, world);
+    });
     result_.materials = materials_.materials();
     for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
   }
 
   /// In the order of the nodes.
-  [[nodiscard]] const std::vector<PlacedCamera>& cameras() const { return cameras_; }
+  [[nodiscard]] const std::vector<NodeCamera>& cameras() const { return cameras_; }
 
  private:
-  struct Pending {
-    std::size_t node;
-    glm::dmat4 parent;
-    int depth;
-  };
+  void add_camera(const Json& node, const glm::dmat4& world) {
+    if (!node.contains("camera")) return;
+    const auto camera = node["camera"].get<std::size_t>();
+    const std::string own = document_.json["cameras"][camera].value("name", ""), name = node.value("name", ""),
+                      numbered = fmt::format("camera {}", cameras_.size());
+    cameras_.push_back({!own.empty() ? own : !name.empty() ? name : numbered, camera, world});
+  }
 
-  void gather_node(const Json& node, const glm::dmat4& world) {
-    if (node.contains("camera")) {
-      const auto camera = node["camera"].get<std::size_t>();
-      const std::string own = document_.json["cameras"][camera].value("name", ""), name = node.value("name", ""),
-                        numbered = fmt::format("camera {}", cameras_.size());
-      cameras_.push_back({!own.empty() ? own : !name.empty() ? name : numbered, camera, world});
-    }
-    if (node.contains(node_light)) {
-      const auto light = node[node_light].get<std::size_t>();
-      result_.lights.push_back(convert_light(document_.json[lights][light], light, world));
-    }
+  void add_light(const Json& node, const glm::dmat4& world) {
+    if (!node.contains(node_light)) return;
+    const auto index = node[node_light].get<std::size_t>();
+    const Placing placing{fmt::format("KHR_lights_punctual.lights[{}]", index), world, result_.origin};
+    if (const auto light = convert_light(document_.json[lights][index], placing, result_.warnings))
+      result_.lights.push_back(*light);
+  }
+
+  void add_mesh(const Json& node, const glm::dmat4& world) {
     if (!node.contains("mesh")) return;
     const auto mesh = node["mesh"].get<std::size_t>();
-    const MeshPose pose = mesh_pose(document_, pose_, node, world);
+    const MeshPose pose = seen_from(result_.origin, mesh_pose(document_, pose_, node, world));
     const Json& primitives = document_.json["meshes"][mesh]["primitives"];
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const int material = materials_.use(material_in_variant(primitives[i], variant_));
-      auto part = convert_primitive(document_, mesh, i, pose,
-                                    materials_.materials()[static_cast<std::size_t>(material)], result_.warnings);
+      auto part =
+          convert_primitive(document_, mesh, i, pose, materials_.materials()[static_cast<std::size_t>(material)],
+                            materials_.sets(material), result_.warnings);
       if (part) merge(*part, material);
     }
   }
@@ -257,7 +320,7 @@ class Gatherer {
   const Pose& pose_;
   std::optional<std::size_t> variant_;
   Model& result_;
-  std::vector<PlacedCamera> cameras_;
+  std::vector<NodeCamera> cameras_;
   GltfMaterials materials_;
   std::map<int, Mesh> meshes_;
   std::uint64_t index_count_ = 0;
@@ -274,10 +337,10 @@ void warn_left_out(const Json& document, Model& result) {
 }
 
 /// Selects the requested camera, else the first.
-void take_camera(const Json& document, const std::vector<PlacedCamera>& cameras,
-                 const std::optional<std::string>& wanted, Model& result) {
+void take_camera(const Json& document, const std::vector<NodeCamera>& cameras, const std::optional<std::string>& wanted,
+                 Model& result) {
   ModelChoice& choice = result.choices.emplace_back(ModelChoice{"camera", {}, {}});
-  for (const PlacedCamera& camera : cameras) choice.names.push_back(camera.name);
+  for (const NodeCamera& camera : cameras) choice.names.push_back(camera.name);
   if (wanted) {
     choice.taken = find_choice(choice, *wanted);
   } else if (!cameras.empty()) {
@@ -285,8 +348,9 @@ void take_camera(const Json& document, const std::vector<PlacedCamera>& cameras,
     if (cameras.size() > 1) add_once(result.warnings, fmt::format("the first of {} cameras is used", cameras.size()));
   }
   if (choice.taken) {
-    const PlacedCamera& taken = cameras[*choice.taken];
-    result.camera = convert_camera(document, taken.camera, taken.world);
+    const NodeCamera& taken = cameras[*choice.taken];
+    result.camera = convert_camera(document["cameras"][taken.camera],
+                                   {fmt::format("cameras[{}]", taken.camera), taken.world, result.origin});
   }
 }
 
@@ -308,8 +372,10 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
                                          first_animation ? std::optional<std::string>("0") : selection.animation);
     const Pose pose = pose_at(document, animation.taken, selection.time.value_or(0.0));
     result.motion = pose.motion;
+    const Nodes roots = root_nodes(json, scene.taken);
+    result.origin = origin_for(bounds_of_scene(document, pose, roots));
     Gatherer gathered(document, pose, variant.taken, result);
-    gathered.gather(root_nodes(json, scene.taken));
+    gathered.gather(roots);
     result.choices.push_back(scene);
     take_camera(json, gathered.cameras(), selection.camera, result);
     result.choices.push_back(variant);

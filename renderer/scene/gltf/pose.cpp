@@ -163,6 +163,13 @@ Pose pose_at(const GltfDocument& document, const std::optional<std::size_t>& ani
   return pose;
 }
 
+MeshPose seen_from(const glm::dvec3& origin, MeshPose pose) {
+  const auto shift = [&](glm::dmat4& matrix) { matrix[3] -= matrix[3].w * glm::dvec4{origin, 0.0}; };
+  shift(pose.world);
+  std::ranges::for_each(pose.joints, shift);
+  return pose;
+}
+
 MeshPose mesh_pose(const GltfDocument& document, const Pose& pose, const Json& node, const glm::dmat4& world) {
   MeshPose out{.world = world, .joints = {}, .weights = node.value("weights", std::vector<double>())};
   const Json& mesh = document.json["meshes"][node["mesh"].get<std::size_t>()];

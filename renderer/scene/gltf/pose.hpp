@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "renderer/scene/gltf/document.hpp"
-#include "renderer/scene/material.hpp"
+#include "renderer/scene/gltf/material.hpp"
+#include "renderer/scene/origin.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
@@ -23,6 +24,9 @@ struct MeshPose {
   std::vector<glm::dmat4> joints;  ///< of its skin, from the mesh to the world; empty: no skin
   std::vector<double> weights;     ///< of its morph targets; those that are missing are 0
 };
+
+/// The pose measured from another place of the world.
+[[nodiscard]] MeshPose seen_from(const glm::dvec3& origin, MeshPose pose);
 
 /// All nodes of a file at one time.
 struct Pose {
@@ -42,15 +46,23 @@ struct Pose {
 [[nodiscard]] MeshPose mesh_pose(const GltfDocument& document, const Pose& pose, const nlohmann::json& node,
                                  const glm::dmat4& world);
 
+/// The bounds of the triangles of a primitive in the world; empty for points, lines and primitives without a triangle.
+/// Throws Error (usage) that names mesh, primitive and vertex: a position that is not finite or beyond 1e15 m, or
+/// indices or joints out of range.
+[[nodiscard]] WideBounds primitive_bounds(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
+                                          const MeshPose& pose);
+
 /// Converts a primitive. Missing normals become flat; unusable normals, tangents and texture coordinates are replaced,
 /// with a line in `warnings`. None for points, lines and primitives without a whole triangle. `Mesh::material` is not
 /// set.
 /// pose: how its node places, morphs and skins it.
 /// material: the texture coordinates of its maps determine the tangents.
-/// Throws Error (usage) that names mesh, primitive and vertex: a position that is not finite or beyond 1e15 m,
-/// attributes of different length, or indices or joints out of range.
+/// sets: the file's sets of texture coordinates that vertices have.
+/// Throws Error (usage) that names mesh, primitive and vertex: attributes of different length, and as primitive_bounds
+/// except for positions beyond 1e15 m.
 [[nodiscard]] std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh,
                                                     std::size_t primitive, const MeshPose& pose,
-                                                    const Material& material, std::vector<std::string>& warnings);
+                                                    const Material& material, const UvSets& sets,
+                                                    std::vector<std::string>& warnings);
 
 }  // namespace footprint

@@ -165,21 +165,22 @@ Light read_light(const TomlTable& table) {
   return point;
 }
 
-Camera read_placed_camera(const TomlTable& table) {
-  const glm::dvec3 position = required(table, "position", read_vector(table, "position", coordinate_range));
-  const glm::dvec3 target = required(table, "target", read_vector(table, "target", coordinate_range));
-  const double distance = glm::length(position - target);
+PlacedCamera read_placed_camera(const TomlTable& table) {
+  PlacedCamera placed;
+  placed.position = required(table, "position", read_vector(table, "position", coordinate_range));
+  placed.target = required(table, "target", read_vector(table, "target", coordinate_range));
+  assign(placed.up, read_direction(table, "up"));
+  const double distance = glm::length(placed.position - placed.target);
   if (distance < 1e-9) {
     throw table.error_at("target", "equals the position of the camera", "move one of them");
   }
-  Camera camera;
-  camera.world = look_at(position, target, read_direction(table, "up").value_or(glm::dvec3{0.0, 1.0, 0.0}));
+  Camera& camera = placed.lens;
   camera.yfov = radians(table.number("yfov_degrees", field_of_view).value_or(34.4));
   camera.znear = static_cast<float>(table.number("znear", length_range).value_or(0.01 * distance));
   const auto zfar = table.number("zfar", length_range);
   if (zfar && *zfar <= camera.znear) throw table.error_at("zfar", "must be beyond znear", "make it larger");
   assign(camera.zfar, zfar);
-  return camera;
+  return placed;
 }
 
 EnvironmentSettings read_environment(const TomlTable& table, const std::filesystem::path& folder) {
@@ -201,6 +202,7 @@ void read_lights(const TomlTable& root, const std::filesystem::path& folder, Sce
        root.tables("light", {"type", "position", "direction", "color", "intensity", "range", "inner_cone_degrees",
                              "outer_cone_degrees", "up", "size", "radius", "integral", "points"})) {
     settings.scene.lights.push_back(read_light(light));
+    settings.light_positions.push_back(read_vector(light, "position", coordinate_range).value_or(glm::dvec3{0.0}));
   }
   if (const auto lights = root.table("lights", {"keep"})) assign(settings.keep_model_lights, lights->boolean("keep"));
   if (const auto environment = root.table("environment", environment_keys)) {

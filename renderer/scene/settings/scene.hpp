@@ -36,6 +36,7 @@ struct SceneSettings {
   std::string description;          ///< for lists of scenes
   std::vector<PartSettings> parts;  ///< at least one
   bool automatic_exposure = false;  ///< requested explicitly, also with the supplied lights
+  std::vector<glm::dvec3> light_positions;  ///< of the lights of `scene`, in the user's coordinates
   bool keep_model_lights = true;
   bool supply_environment = false;  ///< with the supplied lights, if the scene has no light
   std::optional<EnvironmentSettings> environment;

@@ -160,12 +160,13 @@ TEST(SceneSettings, PlacedCameraAndAutomaticExposure) {
       "[camera]\nposition = [0, 5, 0]\ntarget = [0, 0, 0]\nyfov_degrees = 60\nznear = 0.5\nzfar = 20\n");
   EXPECT_TRUE(settings.automatic_exposure);
   EXPECT_FALSE(settings.scene.exposure);
-  const auto& camera = std::get<Camera>(settings.camera);
-  EXPECT_NEAR(camera.world[2].y, 1.0F, 1e-6F);  // looks down: +y is behind it, although up is +y too
-  EXPECT_EQ(camera.world[3], glm::vec4(0, 5, 0, 1));
-  EXPECT_FLOAT_EQ(camera.yfov, std::numbers::pi_v<float> / 3.0F);
-  EXPECT_EQ(camera.znear, 0.5F);
-  EXPECT_EQ(camera.zfar, 20.0F);
+  const auto& camera = std::get<PlacedCamera>(settings.camera);
+  EXPECT_EQ(camera.position, glm::dvec3(0, 5, 0));
+  EXPECT_EQ(camera.target, glm::dvec3(0, 0, 0));
+  EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+  EXPECT_FLOAT_EQ(camera.lens.yfov, std::numbers::pi_v<float> / 3.0F);
+  EXPECT_EQ(camera.lens.znear, 0.5F);
+  EXPECT_EQ(camera.lens.zfar, 20.0F);
 }
 
 TEST(SceneSettings, ShadowsAreDerivedUnlessGiven) {

@@ -44,8 +44,9 @@ const char* image_extension(std::span<const std::uint8_t> bytes) {
 void move_resources(Json& copy, const GltfDocument& document, const std::filesystem::path& folder) {
   for (std::size_t i = 0; copy.contains("buffers") && i < copy["buffers"].size(); ++i) {
     Json& buffer = copy["buffers"][i];
-    if (!document.buffers[i].empty() && !buffer.value("uri", "").starts_with("data:"))
-      move_beside(buffer, fmt::format("buffer{}.bin", i), document.buffers[i], folder);
+    const std::vector<std::uint8_t>& bytes = document.model.buffers[i].data;
+    if (!bytes.empty() && !buffer.value("uri", "").starts_with("data:"))
+      move_beside(buffer, fmt::format("buffer{}.bin", i), bytes, folder);
   }
   for (std::size_t i = 0; copy.contains("images") && i < copy["images"].size(); ++i) {
     const GltfImage image = gltf_image(document, i);
@@ -146,6 +147,7 @@ std::string write_gltf_copy(const std::filesystem::path& source, std::span<const
   const GltfDocument document = read_gltf(source);
   // With the order of its members, and what compressed geometry was decoded from.
   Json json = Json::parse(gltf_text(read_file_bytes(source, std::numeric_limits<std::int32_t>::max())));
+  normalize_gltf(json);
   move_resources(json, document, folder);
   std::vector<std::string> names;
   for (const ReplacedMaps& each : maps) names.push_back(each.material);

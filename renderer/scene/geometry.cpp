@@ -151,7 +151,8 @@ void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>
   for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
 }
 
-std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint32_t> indices) {
+std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint32_t> indices,
+                           std::span<const std::uint32_t> positions) {
   std::vector<bool> broken(vertices.size(), false);
   std::size_t count = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -161,13 +162,17 @@ std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint
     vertices[i].normal = glm::vec3{normal};
   }
   if (count == 0) return 0;
-  std::vector<glm::dvec3> sums(vertices.size(), glm::dvec3{0.0});
+  const auto place_of = [&](std::size_t vertex) { return positions.empty() ? vertex : positions[vertex]; };
+  const std::size_t places = positions.empty() ? vertices.size() : std::ranges::max(positions) + std::size_t{1};
+  std::vector<glm::dvec3> sums(places, glm::dvec3{0.0});
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     const glm::dvec3 normal = area_normal(vertices[indices[i]], vertices[indices[i + 1]], vertices[indices[i + 2]]);
-    for (std::size_t corner = 0; corner < 3; ++corner) sums[indices[i + corner]] += normal;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (const std::uint32_t vertex = indices[i + corner]; broken[vertex]) sums[place_of(vertex)] += normal;
+    }
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (broken[i]) vertices[i].normal = glm::vec3{unit_or(sums[i], {0.0, 0.0, 1.0})};
+    if (broken[i]) vertices[i].normal = glm::vec3{unit_or(sums[place_of(i)], {0.0, 0.0, 1.0})};
   }
   return count;
 }

@@ -41,7 +41,10 @@ void make_flat_normals(std::vector<Vertex>& vertices, std::vector<std::uint32_t>
 
 /// Normalises all normals. A normal of zero length or with a NaN becomes the area-weighted mean of its triangles'
 /// normals (+z if these are degenerate too). Returns the number of replaced normals.
-std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint32_t> indices);
+/// positions: a number per vertex, such as its position's; vertices of one number share that mean, though
+/// they differ in texture coordinates. Empty: each vertex has its own.
+std::size_t repair_normals(std::span<Vertex> vertices, std::span<const std::uint32_t> indices,
+                           std::span<const std::uint32_t> positions = {});
 
 /// A rectangle of `size` (metres) in the xy plane, centred on the origin: normal +z, tangent +x, four vertices, two
 /// triangles, material 0. Texture coordinates run from (0, 0) at the top left to `uv_tiling` at the bottom right (glTF:

@@ -35,10 +35,11 @@ inline void add_once(std::vector<std::string>& lines, std::string line) {
 /// file.
 [[nodiscard]] Model load_model(const std::filesystem::path& file, const ModelSelection& selection = {});
 
-/// Loads v, vt, vn and f of a Wavefront file (Advanced Visualizer manual, appendix B1), at most 2 GiB and 2^26
-/// triangles. Polygons become fans; indices count from 1, or from the end if negative. Vertices without a normal get
-/// the area-weighted mean of their triangles' normals. v of `vt` is flipped to glTF's. All other statements are
-/// ignored. Throws Error (usage) "FILE:LINE: ...": an invalid number or index.
+/// Loads the polygons of a Wavefront file (Advanced Visualizer manual, appendix B1) with the materials of its MTL
+/// files, at most 2 GiB and 2^26 triangles: one mesh per material, without any a default one. Vertices without a normal
+/// get the area-weighted mean of the normals around their position. v of `vt` is flipped to glTF's. scenes.md lists
+/// what is read; for the rest there are warnings. Throws Error (usage) "FILE:LINE: ...": an invalid number or index; as
+/// MtlLibrary.
 [[nodiscard]] Model load_obj(const std::filesystem::path& file);
 
 /// Loads a scene of a glTF file: the selected one, else the default, else the first, else all root nodes. Meshes are in

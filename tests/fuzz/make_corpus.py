@@ -161,7 +161,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    for reader in ("gltf", "glb", "obj", "merl", "picture", "environment", "scene", "method", "cache_entry", "experiment",
+    for reader in ("gltf", "glb", "obj", "mtl", "merl", "picture", "environment", "scene", "method", "cache_entry", "experiment",
                    "part", "results"):
         (folder / reader).mkdir(parents=True, exist_ok=True)
     (folder / "gltf" / "quad.gltf").write_bytes(gltf())
@@ -169,6 +169,12 @@ def main():
     (folder / "obj" / "quad.obj").write_text(
         "mtllib a.mtl\no quad\nv -1 -1 0\nv 1 -1 0 0.5\nv 1 1 0\nv -1 1 0\nvt 0 1\nvt 1 1\nvt 1 0\nvt 0 0\nvn 0 0 1\n"
         "usemtl a\ns 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\nf -4//1 -3//1 -2//1\n")
+    (folder / "obj" / "odd.obj").write_text(
+        "\ufefff 1 2 3 4 5\nv 0 0 0\nv 1 0 0 \\\n 1 0 0\nv +1 1 0 2\nv 0.5 0.2 1e-60\nv 0 1 0\nvt 0\nv 1.#IND nan inf\n"
+        "usemtl b\nl 1 2\nfo 1/1 -4/1 3/1 # a comment\n")
+    (folder / "mtl" / "a.mtl").write_text(
+        "newmtl a\nKd 0.8 0.1 0.1\nKs 0.5\nNs 200\nPr 0.5\nPm 1\nKe 0 1 0\nd 0.5\nmap_Kd -s 2 2 1 -o 0.5 -clamp on a b.png\n"
+        "map_Bump -bm 0.5 -imfchan r input.mtl\nnorm -t 1 1 n.png\nmap_Pr \"r.png\"\nnewmtl b\nKd spectral a.rfl\n")
     (folder / "merl" / "small.binary").write_bytes(struct.pack("<3i", 90, 90, 180) + struct.pack("<6d", *range(6)))
     (folder / "merl" / "other.binary").write_bytes(struct.pack("<3i", 1, 1, 1) + struct.pack("<3d", 1, 2, 3))
     for scene in SOURCE.glob("scenes/*/scene.toml"):

@@ -17,6 +17,7 @@
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/environment.hpp"
 #include "renderer/scene/model.hpp"
+#include "renderer/scene/obj/mtl.hpp"
 #include "renderer/scene/settings/scene.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
@@ -43,6 +44,14 @@ Reader reader_named(const std::string& name) {
   if (name == "gltf") return {"input.gltf", [](const Path& file, Bytes) { static_cast<void>(load_gltf(file)); }};
   if (name == "glb") return {"input.glb", [](const Path& file, Bytes) { static_cast<void>(load_gltf(file)); }};
   if (name == "obj") return {"input.obj", [](const Path& file, Bytes) { static_cast<void>(load_obj(file)); }};
+  if (name == "mtl") {
+    return {"input.mtl", [](const Path& file, Bytes) {
+              std::vector<std::string> warnings;
+              MtlLibrary library(warnings);
+              library.read(file);
+              static_cast<void>(library.material("a"));
+            }};
+  }
   if (name == "merl") return {"input.binary", [](const Path& file, Bytes) { static_cast<void>(read_merl(file)); }};
   if (name == "picture")
     return {"input.bytes", [](const Path&, Bytes bytes) {

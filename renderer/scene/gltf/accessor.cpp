@@ -12,13 +12,11 @@
 namespace footprint {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::uint64_t largest_unbacked_count = std::uint64_t{1} << 20U;
 
 /// Elements in a buffer, `stride` bytes apart, of any alignment.
 struct Elements {
-  const std::uint8_t* first = nullptr;
+  const unsigned char* first = nullptr;
   std::size_t stride = 0;
   std::size_t count = 0;
   int type = 0;
@@ -31,20 +29,22 @@ struct Elements {
   }
 };
 
-/// Finds `count` elements of `components` in a buffer view; `count` is at least 1.
-Elements locate(const GltfDocument& document, const Json& at, std::uint64_t count, std::size_t components, int type,
-                const std::string& place) {
-  const GltfView& view = document.views[at["bufferView"].get<std::size_t>()];
-  const auto offset = at.value("byteOffset", std::uint64_t{0});
+/// Finds `count` elements of `components` in a buffer view; `count` is at least 1. The view itself is within its
+/// buffer (check_gltf_json). A stride of 0 means tightly packed.
+Elements locate(const tinygltf::Model& model, int view_index, std::uint64_t offset, std::uint64_t count,
+                std::size_t components, int type, const std::string& place) {
+  const auto& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   const std::uint64_t element = components * visit_component(type, [](auto kind) { return sizeof(kind); });
-  const std::uint64_t stride = view.stride == 0 ? element : view.stride;
+  const std::uint64_t stride = view.byteStride == 0 ? element : view.byteStride;
   if (stride < element)
     refuse_gltf(place, fmt::format("the stride of {} bytes is less than an element's {}", stride, element));
   const std::uint64_t end = offset + (count - 1) * stride + element;
-  if (end > view.bytes.size()) {
-    refuse_gltf(place, fmt::format("reads up to byte {} of a buffer view that has {}", end, view.bytes.size()));
+  if (end > view.byteLength) {
+    refuse_gltf(place, fmt::format("reads up to byte {} of a buffer view that has {}", end, view.byteLength));
   }
-  return {view.bytes.data() + offset, static_cast<std::size_t>(stride), static_cast<std::size_t>(count), type};
+  const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  return {data.data() + view.byteOffset + offset, static_cast<std::size_t>(stride), static_cast<std::size_t>(count),
+          type};
 }
 
 /// Normalised integers are converted (glTF 2.0, section 3.6.2.2).
@@ -62,76 +62,83 @@ std::uint32_t index_component(const Elements& elements, std::size_t i) {
 }
 
 bool is_index_type(int type) {
-  return type == gltf_unsigned_byte || type == gltf_unsigned_short || type == gltf_unsigned_int;
+  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-void check_shape(const Json& accessor, int components, const std::string& place) {
-  const std::string type = components == 16 ? "MAT4" : components == 1 ? "SCALAR" : fmt::format("VEC{}", components);
-  if (accessor["type"] != type) {
+void check_shape(const tinygltf::Accessor& accessor, int components, const std::string& place) {
+  const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+  const bool matrix = accessor.type >= TINYGLTF_TYPE_MAT2 && accessor.type <= TINYGLTF_TYPE_MAT4;
+  if (matrix != (components == 16) || width != components) {
     refuse_gltf(place,
                 fmt::format("has elements of another type than the {} components that its use needs", components));
   }
-  const auto count = accessor["count"].get<std::uint64_t>();
-  if (count == 0) refuse_gltf(place, "has no element");
+  if (accessor.count == 0) refuse_gltf(place, "has no element");
   // Elements without bytes behind them cost a file nothing, so that it could claim any memory.
-  const std::uint64_t largest = accessor.contains("bufferView") ? largest_element_count : largest_unbacked_count;
-  if (count > largest) refuse_gltf(place, fmt::format("{} elements, more than the {} that are read", count, largest));
+  const std::uint64_t largest = accessor.bufferView < 0 ? largest_unbacked_count : largest_element_count;
+  if (accessor.count > largest) {
+    refuse_gltf(place, fmt::format("{} elements, more than the {} that are read", accessor.count, largest));
+  }
 }
 
 /// Replaces the elements that a sparse accessor names.
-void substitute(const GltfDocument& document, const Json& accessor, std::size_t components, std::vector<float>& values,
-                const std::string& place) {
-  const Json& sparse = accessor["sparse"];
-  const auto count = sparse["count"].get<std::uint64_t>(), all = accessor["count"].get<std::uint64_t>();
-  const int type = sparse["indices"]["componentType"].get<int>();
-  if (count < 1 || count > all) refuse_gltf(place + ".sparse", "replaces no or too many elements");
-  if (!is_index_type(type)) refuse_gltf(place + ".sparse.indices", "are not unsigned integers");
-  const Elements indices = locate(document, sparse["indices"], count, 1, type, place + ".sparse.indices");
-  const Elements replacements = locate(document, sparse["values"], count, components,
-                                       accessor["componentType"].get<int>(), place + ".sparse.values");
-  const bool normalized = accessor.value("normalized", false);
+void substitute(const tinygltf::Model& model, const tinygltf::Accessor& accessor, std::size_t components,
+                std::vector<float>& values, const std::string& place) {
+  const auto& sparse = accessor.sparse;
+  const auto count = static_cast<std::uint64_t>(sparse.count);
+  if (count < 1 || count > accessor.count) refuse_gltf(place + ".sparse", "replaces no or too many elements");
+  if (!is_index_type(sparse.indices.componentType)) refuse_gltf(place + ".sparse.indices", "are not unsigned integers");
+  const Elements indices =
+      locate(model, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset), count, 1,
+             sparse.indices.componentType, place + ".sparse.indices");
+  const Elements replacements =
+      locate(model, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset), count, components,
+             accessor.componentType, place + ".sparse.values");
   std::int64_t previous = -1;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t index = index_component(indices, i);
-    if (index >= all || index <= previous) {
+    if (index >= accessor.count || index <= previous) {
       refuse_gltf(place + ".sparse.indices", fmt::format("index {} does not rise or is out of range", index));
     }
     previous = index;
-    for (std::size_t c = 0; c < components; ++c)
-      values[index * components + c] = float_component(replacements, i, c, normalized);
+    for (std::size_t c = 0; c < components; ++c) {
+      values[index * components + c] = float_component(replacements, i, c, accessor.normalized);
+    }
   }
 }
 
 }  // namespace
 
 std::vector<float> read_floats(const GltfDocument& document, std::size_t index, int components) {
-  const Json& accessor = document.json["accessors"][index];
+  const tinygltf::Accessor& accessor = document.model.accessors[index];
   const std::string place = fmt::format("accessors[{}]", index);
   check_shape(accessor, components, place);
-  const int type = accessor["componentType"].get<int>();
+  const int type = accessor.componentType;
   if (!is_attribute_type(type)) refuse_gltf(place, "is neither float nor an 8 or 16 bit integer");
   const auto width = static_cast<std::size_t>(components);
-  const auto count = accessor["count"].get<std::size_t>();
   Elements elements;
-  if (accessor.contains("bufferView")) elements = locate(document, accessor, count, width, type, place);
-  const bool normalized = accessor.value("normalized", false);
-  std::vector<float> values(count * width, 0.0F);
-  for (std::size_t i = 0; i < elements.count; ++i) {
-    for (std::size_t c = 0; c < width; ++c) values[i * width + c] = float_component(elements, i, c, normalized);
+  if (accessor.bufferView >= 0) {
+    elements = locate(document.model, accessor.bufferView, accessor.byteOffset, accessor.count, width, type, place);
   }
-  if (accessor.contains("sparse")) substitute(document, accessor, width, values, place);
+  std::vector<float> values(accessor.count * width, 0.0F);
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    for (std::size_t c = 0; c < width; ++c) {
+      values[i * width + c] = float_component(elements, i, c, accessor.normalized);
+    }
+  }
+  if (accessor.sparse.isSparse) substitute(document.model, accessor, width, values, place);
   return values;
 }
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, std::size_t index) {
-  const Json& accessor = document.json["accessors"][index];
+  const tinygltf::Accessor& accessor = document.model.accessors[index];
   const std::string place = fmt::format("accessors[{}]", index);
   check_shape(accessor, 1, place);
-  const int type = accessor["componentType"].get<int>();
-  if (!is_index_type(type)) refuse_gltf(place, "indices must be unsigned integers");
-  if (!accessor.contains("bufferView") || accessor.contains("sparse"))
+  if (!is_index_type(accessor.componentType)) refuse_gltf(place, "indices must be unsigned integers");
+  if (accessor.bufferView < 0 || accessor.sparse.isSparse)
     refuse_gltf(place, "indices must lie in a buffer view, not sparse");
-  const Elements elements = locate(document, accessor, accessor["count"].get<std::uint64_t>(), 1, type, place);
+  const Elements elements = locate(document.model, accessor.bufferView, accessor.byteOffset, accessor.count, 1,
+                                   accessor.componentType, place);
   std::vector<std::uint32_t> indices(elements.count);
   for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = index_component(elements, i);
   return indices;

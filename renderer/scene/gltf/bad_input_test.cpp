@@ -90,9 +90,8 @@ TEST(GltfBadInput, Buffers) {
   EXPECT_NE(with_buffers({{{"byteLength", size}, {"uri", "/dev/zero"}}}).find("zero"), std::string::npos);
   const std::string bytes(size, 'x');
   test::write_file("short.bin", bytes.substr(0, size - 4));
-  test::write_file("long.bin", bytes + "more");
   test::write_file("nothing.bin", "");
-  for (const char* name : {"short.bin", "long.bin", "nothing.bin"}) {
+  for (const char* name : {"short.bin", "nothing.bin"}) {
     EXPECT_NE(with_buffers({{{"byteLength", size}, {"uri", name}}}).find(name), std::string::npos) << name;
   }
 }
@@ -273,7 +272,6 @@ TEST(GltfBadInput, GlbContainers) {
   for (const std::size_t size : {std::size_t{4}, std::size_t{12}, std::size_t{19}, whole.size() - 1}) {
     EXPECT_FALSE(error_of(test::write_file("cut.glb", whole.substr(0, size))).empty()) << size;
   }
-  EXPECT_NE(error_of(test::write_file("long.glb", whole + "more")).find("GLB container"), std::string::npos);
 }
 
 // By their headers the maps exceed memory, which is reported before any of them is decoded.

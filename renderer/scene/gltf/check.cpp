@@ -9,6 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "renderer/core/names.hpp"
+
 namespace footprint {
 namespace {
 
@@ -99,7 +101,7 @@ const std::vector<RuleGroup>& rule_groups() {
         {"materials[].pbrMetallicRoughness.{metallicFactor,roughnessFactor}", number},
         {"materials[].extensions.*", object},
         {"cameras[].type", string, required},
-        {"cameras[].{perspective,orthographic}.*", number}}},
+        {"cameras[].{perspective,orthographic}.{aspectRatio,xmag,yfov,ymag,zfar,znear}", number}}},
       {"nodes[].extensions.KHR_lights_punctual",
        {{".light", index, required, "extensions.KHR_lights_punctual.lights"}}},
       {"nodes[].extensions.KHR_node_visibility", {{".visible", boolean}}},
@@ -108,7 +110,7 @@ const std::vector<RuleGroup>& rule_groups() {
         {".lights[].type", string, required},
         {".lights[].color", numbers, optional, "", 3},
         {".lights[].{intensity,range}", number},
-        {".lights[].spot.*", number}}},
+        {".lights[].spot.{innerConeAngle,outerConeAngle}", number}}},
       {"extensions.KHR_materials_variants", {{".variants", array, required}, {".variants[].name", string}}},
       {"meshes[].primitives[].extensions.KHR_materials_variants",
        {{".mappings", array, required},
@@ -329,18 +331,43 @@ void check_buffer_views(const json& document) {
   }
 }
 
+// The kinds that tinygltf knows.
+void check_accessors(const json& document) {
+  const json accessors = document.value("accessors", json::array());
+  for (std::size_t i = 0; i < accessors.size(); ++i) {
+    const std::string where = fmt::format("accessors[{}]", i), type = accessors[i]["type"];
+    const auto component = accessors[i]["componentType"].get<int>();
+    constexpr std::array<std::string_view, 7> types{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    if (std::ranges::find(types, type) == types.end())
+      refuse_gltf(where + ".type", fmt::format("`{:.40}` is not a type of glTF 2.0", type));
+    if (component < TINYGLTF_COMPONENT_TYPE_BYTE || component > TINYGLTF_COMPONENT_TYPE_FLOAT)
+      refuse_gltf(where + ".componentType", fmt::format("{} is not a component type of glTF 2.0", component));
+  }
+}
+
+// The scheme of a URI in lower case; empty for a path, also one that starts with a drive such as "C:".
+std::string scheme_of(const std::string& uri) {
+  const std::size_t end = uri.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+.-");
+  return end == std::string::npos || end < 2 || uri[end] != ':' ? "" : lower_case(uri.substr(0, end));
+}
+
 void check_uris(const json& document, const std::string& array) {
   const json items = document.value(array, json::array());
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto uri = items[i].value("uri", std::string{});
-    const std::string where = fmt::format("{}[{}].uri", array, i);
-    if (uri.starts_with("data:")) {
-      if (!std::string_view(uri).substr(0, uri.find(',')).ends_with(";base64")) {
+    const std::string where = fmt::format("{}[{}].uri", array, i), scheme = scheme_of(uri);
+    constexpr const char* beside = "put the file beside the glTF and name it by a relative path";
+    if (scheme == "data") {
+      if (!lower_case(uri.substr(0, uri.find(','))).ends_with(";base64"))
         refuse_gltf(where, fmt::format("this kind of data URI cannot be read: `{:.40}`", uri), "encode it in base64");
-      }
-    } else if (uri.find("://") != std::string::npos) {
-      refuse_gltf(where, fmt::format("`{:.120}` is not fetched from the network", uri),
-                  "put the file beside the glTF and name it by a relative path");
+    } else if (scheme == "file") {
+      const std::string rest = uri.substr(5);
+      if (rest.starts_with("//") && !rest.starts_with("///") && !rest.starts_with("//localhost/"))
+        refuse_gltf(where, fmt::format("`{:.120}` is a file of another machine", uri), beside);
+    } else if (uri.find("://") != std::string::npos || uri.starts_with("//")) {
+      refuse_gltf(where, fmt::format("`{:.120}` is not fetched from the network", uri), beside);
+    } else if (!scheme.empty() && scheme.find('.') == std::string::npos) {
+      refuse_gltf(where, fmt::format("`{:.120}` is a URI of the scheme `{}`, which is not read", uri, scheme), beside);
     }
   }
 }
@@ -354,7 +381,9 @@ json parse_gltf_json(std::string_view text) {
     return true;
   };
   try {
-    return json::parse(text, limit_depth);
+    json document = json::parse(text, limit_depth);
+    normalize_gltf(document);
+    return document;
   } catch (const json::exception& error) {
     const std::string_view reason = error.what();
     refuse_gltf(
@@ -370,6 +399,7 @@ void check_gltf_json(const json& document) {
   }
   check_required_extensions(document);
   check_buffer_views(document);
+  check_accessors(document);
   check_uris(document, "buffers");
   check_uris(document, "images");
 }

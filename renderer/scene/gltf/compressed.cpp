@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -22,27 +23,25 @@ namespace footprint {
 namespace {
 
 using Json = nlohmann::json;
-using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char* meshopt_extension = "EXT_meshopt_compression";
-constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 
 // The parameters of a compressed buffer view.
 struct Encoding {
   std::size_t count = 0, stride = 0;
   std::string mode, filter;
-  const std::uint8_t* data = nullptr;
+  const unsigned char* data = nullptr;
   std::size_t size = 0;
 };
 
-Encoding encoding_of(const GltfDocument& document, const Json& extension) {
+Encoding encoding_of(const tinygltf::Model& model, const Json& extension) {
   Encoding out{.count = extension["count"].get<std::size_t>(),
                .stride = extension["byteStride"].get<std::size_t>(),
                .mode = extension["mode"].get<std::string>(),
                .filter = extension.value("filter", "NONE"),
                .data = nullptr,
                .size = extension["byteLength"].get<std::size_t>()};
-  const Bytes& bytes = document.buffers[extension["buffer"].get<std::size_t>()];
+  const auto& bytes = model.buffers[extension["buffer"].get<std::size_t>()].data;
   const auto offset = extension.value("byteOffset", std::size_t{0});
   if (offset > bytes.size() || out.size > bytes.size() - offset)
     refuse_gltf(meshopt_extension, "its data does not lie within its buffer");
@@ -76,10 +75,10 @@ void check(const Encoding& encoding, std::size_t length) {
   }
 }
 
-Bytes decoded(const Encoding& encoding) {
+std::vector<unsigned char> decoded(const Encoding& encoding) {
   const auto& [count, stride, mode, filter, data, size] = encoding;
   require_memory(count * stride, "decoding a compressed buffer view", "use a smaller model, or free memory");
-  Bytes out(count * stride);
+  std::vector<unsigned char> out(count * stride);
   const int failed = mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(out.data(), count, stride, data, size)
                      : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(out.data(), count, stride, data, size)
                                            : meshopt_decodeIndexSequence(out.data(), count, stride, data, size);
@@ -90,9 +89,14 @@ Bytes decoded(const Encoding& encoding) {
   return out;
 }
 
-std::unique_ptr<draco::Mesh> decoded(const GltfView& view) {
+constexpr const char* draco_extension = "KHR_draco_mesh_compression";
+
+using Bytes = std::vector<unsigned char>;
+
+std::unique_ptr<draco::Mesh> decoded(const tinygltf::Model& model, std::size_t view) {
+  const std::span<const std::uint8_t> bytes = view_bytes(model, view);
   draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(view.bytes.data()), view.bytes.size());
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
   try {
     auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
@@ -106,12 +110,19 @@ std::unique_ptr<draco::Mesh> decoded(const GltfView& view) {
   }
 }
 
-// Points an accessor at bytes of its own.
-void point_at(GltfDocument& document, Json& accessor, Bytes bytes) {
-  document.buffers.push_back(std::move(bytes));
-  accessor["bufferView"] = document.views.size();
-  accessor["byteOffset"] = 0;
-  document.views.push_back({document.buffers.back()});
+// Appends a buffer with one view of all of it; gives the view's index.
+int add_view(tinygltf::Model& model, Bytes bytes) {
+  tinygltf::BufferView view;
+  view.buffer = static_cast<int>(model.buffers.size());
+  view.byteLength = bytes.size();
+  model.buffers.emplace_back().data = std::move(bytes);
+  model.bufferViews.push_back(std::move(view));
+  return static_cast<int>(model.bufferViews.size()) - 1;
+}
+
+void point_at(tinygltf::Accessor& accessor, int view) {
+  accessor.bufferView = view;
+  accessor.byteOffset = 0;
 }
 
 // Whether the values of all points are within the attribute's buffer.
@@ -140,34 +151,33 @@ Bytes values_of(const draco::PointAttribute& attribute, std::uint32_t points) {
   return bytes;
 }
 
-void take_attribute(GltfDocument& document, const draco::Mesh& mesh, const std::string& name, std::uint32_t id,
+void take_attribute(tinygltf::Model& model, const draco::Mesh& mesh, const std::string& name, int id,
                     std::size_t accessor) {
-  Json& target = document.json["accessors"][accessor];
-  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
+  tinygltf::Accessor& target = model.accessors[accessor];
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
   if (attribute == nullptr) refuse_gltf(draco_extension, fmt::format("{}: its data has no attribute {}", name, id));
-  if (target["count"] != mesh.num_points())
+  if (target.count != mesh.num_points())
     refuse_gltf(draco_extension, fmt::format("{}: {} elements are decoded, accessors[{}] has {}", name,
-                                             mesh.num_points(), accessor, target["count"].get<std::uint64_t>()));
-  const std::string decoded_type =
-      attribute->num_components() == 1 ? "SCALAR" : fmt::format("VEC{}", attribute->num_components());
-  if (target["type"] != decoded_type)
-    refuse_gltf(draco_extension, fmt::format("{}: {} components are decoded, accessors[{}] is {}", name,
-                                             attribute->num_components(), accessor, target["type"].get<std::string>()));
+                                             mesh.num_points(), accessor, target.count));
+  const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(target.type));
+  if (attribute->num_components() != components)
+    refuse_gltf(draco_extension, fmt::format("{}: {} components are decoded, accessors[{}] has {}", name,
+                                             attribute->num_components(), accessor, components));
   if (!is_whole(*attribute, mesh.num_points()))
     refuse_gltf(draco_extension, fmt::format("{}: its data is damaged", name));
-  const int type = target["componentType"].get<int>();
-  if (!is_attribute_type(type))
-    refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", type));
-  point_at(document, target,
-           visit_component(type, [&]<class T>(T /*kind*/) { return values_of<T>(*attribute, mesh.num_points()); }));
+  if (!is_attribute_type(target.componentType))
+    refuse_gltf(draco_extension, fmt::format("{} is not a component type of an attribute", target.componentType));
+  point_at(target, add_view(model, visit_component(target.componentType, [&]<class T>(T /*kind*/) {
+                              return values_of<T>(*attribute, mesh.num_points());
+                            })));
 }
 
-void take_indices(GltfDocument& document, const draco::Mesh& mesh, std::size_t accessor) {
-  Json& target = document.json["accessors"][accessor];
+void take_indices(tinygltf::Model& model, const draco::Mesh& mesh, std::size_t accessor) {
+  tinygltf::Accessor& target = model.accessors[accessor];
   const std::uint64_t count = std::uint64_t{3} * mesh.num_faces();
-  if (target["count"] != count)
-    refuse_gltf(draco_extension, fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor,
-                                             target["count"].get<std::uint64_t>()));
+  if (target.count != count)
+    refuse_gltf(draco_extension,
+                fmt::format("indices: {} are decoded, accessors[{}] has {}", count, accessor, target.count));
   Bytes bytes(count * sizeof(std::uint32_t));
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -175,22 +185,23 @@ void take_indices(GltfDocument& document, const draco::Mesh& mesh, std::size_t a
       std::memcpy(&bytes[(3 * std::size_t{i} + corner) * sizeof index], &index, sizeof index);
     }
   }
-  target["componentType"] = gltf_unsigned_int;
-  point_at(document, target, std::move(bytes));
+  target.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  point_at(target, add_view(model, std::move(bytes)));
 }
 
-void decode_primitive(GltfDocument& document, const Json& primitive, const Json& extension) {
+void decode_primitive(tinygltf::Model& model, const Json& primitive, const Json& extension) {
   const Json& attributes = primitive["attributes"];
   if (!attributes.contains("POSITION") || !primitive.contains("indices"))
     refuse_gltf(draco_extension, "a compressed primitive needs accessors for POSITION and indices");
-  if (document.json["accessors"][attributes["POSITION"].get<std::size_t>()].contains("bufferView")) return;
-  if (primitive.value("mode", 4) != 4) refuse_gltf(draco_extension, "only triangles are read, no strips");
-  const std::unique_ptr<draco::Mesh> mesh = decoded(document.views[extension["bufferView"].get<std::size_t>()]);
+  if (model.accessors[attributes["POSITION"].get<std::size_t>()].bufferView >= 0) return;
+  if (primitive.value("mode", TINYGLTF_MODE_TRIANGLES) != TINYGLTF_MODE_TRIANGLES)
+    refuse_gltf(draco_extension, "only triangles are read, no strips");
+  const std::unique_ptr<draco::Mesh> mesh = decoded(model, extension["bufferView"].get<std::size_t>());
   for (const auto& [name, id] : extension["attributes"].items()) {
     if (attributes.contains(name))
-      take_attribute(document, *mesh, name, id.get<std::uint32_t>(), attributes[name].get<std::size_t>());
+      take_attribute(model, *mesh, name, id.get<int>(), attributes[name].get<std::size_t>());
   }
-  take_indices(document, *mesh, primitive["indices"].get<std::size_t>());
+  take_indices(model, *mesh, primitive["indices"].get<std::size_t>());
 }
 
 }  // namespace
@@ -209,10 +220,13 @@ void decode_meshopt(GltfDocument& document) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!is_compressed(views[i])) continue;
     try {
-      const Encoding encoding = encoding_of(document, views[i]["extensions"][meshopt_extension]);
-      check(encoding, views[i]["byteLength"].get<std::size_t>());
-      document.buffers.push_back(decoded(encoding));
-      document.views[i].bytes = document.buffers.back();
+      tinygltf::BufferView& view = document.model.bufferViews[i];
+      const Encoding encoding = encoding_of(document.model, views[i]["extensions"][meshopt_extension]);
+      check(encoding, view.byteLength);
+      std::vector<unsigned char> bytes = decoded(encoding);
+      view.buffer = static_cast<int>(document.model.buffers.size());
+      view.byteOffset = 0;
+      document.model.buffers.emplace_back().data = std::move(bytes);
     } catch (const Error& error) {
       throw error.within(fmt::format("bufferViews[{}]", i));
     }
@@ -227,7 +241,7 @@ void decode_draco(GltfDocument& document) {
       const Json& primitive = meshes[m]["primitives"][p];
       if (!primitive.contains(draco)) continue;
       try {
-        decode_primitive(document, primitive, primitive[draco]);
+        decode_primitive(document.model, primitive, primitive[draco]);
       } catch (const Error& error) {
         throw error.within(fmt::format("mesh {} `{:.80}`, primitive {}", m, meshes[m].value("name", ""), p));
       }

@@ -1,9 +1,13 @@
 // A glTF file, decompressed and checked, its accessors and images, and the checks of its JSON.
 #pragma once
 
+#include <tiny_gltf.h>
+
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -14,24 +18,18 @@
 
 namespace footprint {
 
-/// A part of a buffer.
-struct GltfView {
-  std::span<const std::uint8_t> bytes;
-  std::size_t stride = 0;  ///< between elements; 0: tightly packed
-};
-
 /// A checked document: indices are in range, and buffer views within their buffers. Compressed geometry is decoded,
-/// into further buffers.
+/// into further buffers. tinygltf has read the members that have bytes: buffers, buffer views, accessors, and images in
+/// data URIs.
 struct GltfDocument {
-  nlohmann::json json;
+  nlohmann::json json;  ///< normalized
   std::filesystem::path file;
-  std::vector<std::vector<std::uint8_t>> buffers{};
-  std::vector<GltfView> views{};  ///< of `bufferViews`, then those of decoded accessors
+  tinygltf::Model model{};  ///< buffers that only name what is decoded are empty
 };
 
 /// Reads a .gltf or .glb file (by its content) with its buffers. Throws Error (usage): missing, empty, over 2 GiB, not
-/// glTF 2.0, a broken GLB container, as check_gltf_json, a missing buffer or one of another size, damaged compressed
-/// geometry.
+/// glTF 2.0, a broken GLB container, as check_gltf_json, a missing or too short buffer, a data URI that is not base64,
+/// damaged compressed geometry.
 [[nodiscard]] GltfDocument read_gltf(const std::filesystem::path& file);
 
 /// The JSON in the bytes of a .gltf or .glb file. Throws Error (usage): a broken container.
@@ -40,43 +38,51 @@ struct GltfDocument {
 /// The name of an image for messages: its URI, its own name, or its place.
 [[nodiscard]] std::string gltf_image_name(const GltfDocument& document, std::size_t index);
 
+/// A text with its percent escapes decoded: "%20" is a blank. What is no escape stays.
+[[nodiscard]] std::string percent_decoded(std::string_view text);
+
+/// The file that a URI names.
+struct GltfFile {
+  std::filesystem::path path;  ///< from the document's folder if it is relative
+  std::string fault{};         ///< why there is none, such as "no such file"; empty: there is one
+};
+
+/// The file of a local URI: as it is written, or else with percent escapes decoded, or without a query and a fragment.
+/// `file:` URIs and absolute paths count too.
+[[nodiscard]] GltfFile gltf_file(const GltfDocument& document, const std::string& uri);
+
 /// An encoded image.
 struct GltfImage {
-  std::filesystem::path file;  ///< of any content, from the document's folder if its path is relative; empty: `bytes`
+  std::filesystem::path file;       ///< of any content, as in GltfFile; empty: `bytes`
   std::vector<std::uint8_t> bytes;  ///< of a buffer view or a data URI
+  std::string fault{};              ///< of the file
 };
 
 /// The image of an index of `images`. Throws Error (usage): neither a buffer view nor a URI.
 [[nodiscard]] GltfImage gltf_image(const GltfDocument& document, std::size_t index);
 
-/// glTF's numbers of component types.
-enum GltfComponent : int {
-  gltf_byte = 5120,
-  gltf_unsigned_byte = 5121,
-  gltf_short = 5122,
-  gltf_unsigned_short = 5123,
-  gltf_unsigned_int = 5125,
-  gltf_float = 5126
-};
+/// The bytes of a buffer view.
+[[nodiscard]] std::span<const std::uint8_t> view_bytes(const tinygltf::Model& model, std::size_t view);
 
 /// Whether a component type is one of vertex attributes: float, or an integer of 8 or 16 bits.
 [[nodiscard]] inline bool is_attribute_type(int type) {
-  return type == gltf_float || (type >= gltf_byte && type <= gltf_unsigned_short);
+  return type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+         (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
 }
 
 /// `visit` of a value of a component type: one of vertex attributes, or of an unsigned integer of 32 bits.
 template <class Visit>
 auto visit_component(int type, const Visit& visit) {
   switch (type) {
-    case gltf_byte:
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
       return visit(std::int8_t{});
-    case gltf_unsigned_byte:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return visit(std::uint8_t{});
-    case gltf_short:
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
       return visit(std::int16_t{});
-    case gltf_unsigned_short:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
       return visit(std::uint16_t{});
-    case gltf_unsigned_int:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
       return visit(std::uint32_t{});
     default:
       return visit(float{});
@@ -116,7 +122,23 @@ void decode_draco(GltfDocument& document);
   throw Error(ErrorKind::usage, place, message, hint);
 }
 
-/// Parses JSON with a limit on its nesting. Throws Error (usage): not JSON, nested over 64 deep.
+/// Removes null members, which count as missing, and makes whole numbers of floats such as 4.0.
+template <class Json>
+void normalize_gltf(Json& value) {
+  if (value.is_object()) {
+    for (auto member = value.begin(); member != value.end();)
+      member = member->is_null() ? value.erase(member) : std::next(member);
+  }
+  if (value.is_number_float()) {
+    const auto number = value.template get<double>();
+    const bool is_whole = std::abs(number) < 0x1p53 && number == std::floor(number);
+    if (is_whole && !(number == 0.0 && std::signbit(number))) value = static_cast<std::int64_t>(number);
+  }
+  if (value.is_structured())
+    for (Json& child : value) normalize_gltf(child);
+}
+
+/// Parses and normalizes JSON, with a limit on its nesting. Throws Error (usage): not JSON, nested over 64 deep.
 [[nodiscard]] nlohmann::json parse_gltf_json(std::string_view text);
 
 /// Checks everything in a glTF 2.0 document that Footprint reads: version, required extensions, types, array sizes,

@@ -354,6 +354,7 @@ class Converter {
 
   [[nodiscard]] FileImage stored(std::size_t index, Transfer transfer) const {
     const GltfImage image = gltf_image(document_, index);
+    if (!image.fault.empty()) refuse_gltf(image.file.string(), image.fault, "check the path");
     return image.file.empty() ? read_file_image(image.bytes, gltf_image_name(document_, index), transfer)
                               : read_file_image(image.file, transfer);
   }

@@ -93,7 +93,7 @@ bool read_texture_coordinates(Builder& builder, const std::string& name, glm::ve
 
 /// The components of COLOR_0; glTF 2.0 has RGB and RGBA, floats or normalised integers.
 int color_components(const Json& accessor) {
-  if (accessor["componentType"] != gltf_float && !accessor.value("normalized", false)) {
+  if (accessor["componentType"] != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.value("normalized", false)) {
     refuse_gltf("COLOR_0", "its integers are not normalised, so their meaning is undefined");
   }
   return accessor["type"] == "VEC3" ? 3 : 4;

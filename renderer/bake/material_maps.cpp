@@ -88,6 +88,12 @@ Image specular_map_of(const Material& material) {
   return material.specular_map ? material.specular_map->image.decoded() : Image(1, 1, 3, 1.0F);
 }
 
+Image emission_map_of(const Material& material) {
+  return material.emission_map ? material.emission_map->image.decoded() : Image(1, 1, 3, 1.0F);
+}
+
+Image occlusion_map_of(const Material& material) { return one_channel_of(material.occlusion_map, 1.0F); }
+
 Image coat_weight_map_of(const Material& material) {
   return one_channel_of(coat_of(material).weight_map, coat_of(material).weight);
 }
@@ -136,6 +142,8 @@ TextureCoordinates roughness_coordinates(const Material& m) {
 }
 TextureCoordinates base_color_coordinates(const Material& m) { return coordinates_of(m.base_color_map); }
 TextureCoordinates specular_coordinates(const Material& m) { return coordinates_of(m.specular_map); }
+TextureCoordinates emission_coordinates(const Material& m) { return coordinates_of(m.emission_map); }
+TextureCoordinates occlusion_coordinates(const Material& m) { return coordinates_of(m.occlusion_map); }
 TextureCoordinates coat_weight_coordinates(const Material& m) { return coordinates_of(coat_of(m).weight_map); }
 TextureCoordinates coat_width_coordinates(const Material& m) { return coordinates_of(coat_of(m).roughness_map); }
 TextureCoordinates coat_normal_coordinates(const Material& m) { return coordinates_of(coat_of(m).normal_map); }
@@ -144,14 +152,16 @@ TextureCoordinates share_coordinates(const Material& m) {
 }
 
 std::span<const SharedMap> shared_maps() {
-  static constexpr std::array<SharedMap, 7> maps{
+  static constexpr std::array<SharedMap, 9> maps{
       {{Effect::base_color_variation, "base_color_map", base_color_map_of, base_color_coordinates},
        {Effect::metallic_variation, "metallic_map", metallic_map_of, roughness_coordinates},
        {Effect::specular_variation, "specular_map", specular_map_of, specular_coordinates},
        {Effect::coat_weight_variation, "coat_weight_map", coat_weight_map_of, coat_weight_coordinates},
        {Effect::coat_width_variation, "coat_width_map", coat_width_map_of, coat_width_coordinates},
        {Effect::coat_normal_variation, "coat_normal_map", coat_normal_map_of, coat_normal_coordinates},
-       {Effect::material_index, "material_share", material_share_of, share_coordinates}}};
+       {Effect::material_index, "material_share", material_share_of, share_coordinates},
+       {Effect::emission_variation, "emission_map", emission_map_of, emission_coordinates},
+       {Effect::occlusion, "occlusion_map", occlusion_map_of, occlusion_coordinates}}};
   return maps;
 }
 

@@ -38,6 +38,12 @@ namespace footprint {
 /// The factor of the dielectric specular colour, 3 channels; without a map: white, 1 x 1.
 [[nodiscard]] Image specular_map_of(const Material& material);
 
+/// The factor of the emitted light, 3 channels; without a map: white, 1 x 1.
+[[nodiscard]] Image emission_map_of(const Material& material);
+
+/// The share of the environment's light that arrives, 1 channel; without a map: 1, 1 x 1.
+[[nodiscard]] Image occlusion_map_of(const Material& material);
+
 /// The weight of a material's coat, 1 channel; without a coat: 0, 1 x 1.
 [[nodiscard]] Image coat_weight_map_of(const Material& material);
 
@@ -67,6 +73,8 @@ inline constexpr float smallest_coat_alpha = 1e-3F;
 [[nodiscard]] TextureCoordinates roughness_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates base_color_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates specular_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates emission_coordinates(const Material& material);
+[[nodiscard]] TextureCoordinates occlusion_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates coat_weight_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates coat_width_coordinates(const Material& material);
 [[nodiscard]] TextureCoordinates coat_normal_coordinates(const Material& material);

@@ -70,11 +70,13 @@ bool metallic_varies(const Material& m) {
   return metallic_map(m) != nullptr && channel_varies(metallic_map(m)->image.decoded(), 1);
 }
 
-bool specular_varies(const Material& m) {
-  if (!m.specular_map) return false;
-  const Image image = m.specular_map->image.decoded();
+bool colors_vary(const std::optional<TextureMap>& map) {
+  if (!map) return false;
+  const Image image = map->image.decoded();
   return channel_varies(image, 0) || channel_varies(image, 1) || channel_varies(image, 2);
 }
+
+bool emits(const Material& m) { return m.emission != glm::vec3(0.0F) && !m.unlit; }
 
 // An effect that is on if a material fulfils a predicate.
 struct MaterialEffect {
@@ -99,8 +101,8 @@ constexpr auto material_effects = std::to_array<MaterialEffect>(
       "no base-colour map"},
      {Effect::metallic_variation, metallic_varies, "a metallic map that varies",
       "metalness is constant over each material"},
-     {Effect::specular_variation, specular_varies, "a specular map that varies",
-      "the specular colour is constant over each material"},
+     {Effect::specular_variation, [](const Material& m) { return colors_vary(m.specular_map); },
+      "a specular map that varies", "the specular colour is constant over each material"},
      {Effect::clear_coat, [](const Material& m) { return m.coat.has_value(); }, "a clear coat",
       "no material has a clear coat"},
      {Effect::coat_weight_variation, [](const Material& m) { return m.coat && varies(m.coat->weight_map); },
@@ -117,6 +119,9 @@ constexpr auto material_effects = std::to_array<MaterialEffect>(
       "every material is one-sided"},
      {Effect::unlit, [](const Material& m) { return m.unlit; }, "a colour that is drawn without light",
       "every material is lit"},
+     {Effect::emission, emits, "light of its own", "no material emits light"},
+     {Effect::emission_variation, [](const Material& m) { return emits(m) && colors_vary(m.emission_map); },
+      "a map of emitted light that varies", "emitted light is constant over each material"},
      {Effect::microgeometry_visibility, [](const Material& m) { return m.microgeometry != nullptr; },
       "a patch of small-scale geometry", "no small-scale geometry"},
      {Effect::microgeometry_colour, [](const Material& m) { return m.microgeometry && needs_colors(*m.microgeometry); },
@@ -171,6 +176,16 @@ EffectDecision environment_light(const Scene& scene) {
   return {Effect::environment_light, lit, lit ? text : text + ", is black"};
 }
 
+EffectDecision occlusion(const Scene& scene) {
+  if (!environment_light(scene).on) return {Effect::occlusion, false, "no light from an environment to occlude"};
+  const auto occludes = [](const Material& m) {
+    return m.occlusion_map && !m.unlit &&
+           std::ranges::any_of(m.occlusion_map->image.decoded().texels, [](float share) { return share < 1.0F; });
+  };
+  return decide(Effect::occlusion, scene, occludes, "an occlusion map, which dims the environment's light",
+                "no occlusion map");
+}
+
 EffectDecision cast_shadow(const Scene& scene) {
   const auto off = [](std::string_view reason) {
     return EffectDecision{Effect::cast_shadow, false, std::string(reason)};
@@ -204,7 +219,8 @@ std::vector<EffectDecision> derive_effects(const Scene& scene) {
                                         lights<DirectionalLight>(Effect::directional_light, scene, "directional"),
                                         lights<AreaLight>(Effect::area_light, scene, "area"),
                                         cast_shadow(scene),
-                                        environment_light(scene)};
+                                        environment_light(scene),
+                                        occlusion(scene)};
   for (const MaterialEffect& each : material_effects)
     decisions.push_back(decide(each.effect, scene, each.fits, each.on, each.off));
   std::ranges::sort(decisions, {}, &EffectDecision::effect);

@@ -35,6 +35,9 @@ enum class Effect : std::size_t {
   alpha_mask,             ///< parts cut out by alpha
   double_sided,           ///< surfaces seen from behind
   unlit,                  ///< surfaces that radiate their colour, whatever the light
+  emission,               ///< surfaces that radiate light besides what they reflect
+  emission_variation,     ///< a map of that light that is not constant
+  occlusion,              ///< a map of how much of the environment reaches a surface
   point_light,
   spot_light,
   directional_light,

@@ -61,6 +61,8 @@ Scene scene_of_facets(const Material& material) {
   bare.base_color_map.reset();
   bare.layer_map.reset();
   bare.specular_map.reset();
+  bare.emission = glm::vec3(0.0F);
+  bare.occlusion_map.reset();
   bare.coat.reset();
   bare.alpha_cutoff.reset();
   bare.double_sided = false;

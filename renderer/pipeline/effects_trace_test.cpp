@@ -132,6 +132,17 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].alpha_cutoff = 0.5F;
      }},
     {Effect::unlit, "lobe_cutoff.z", [](Scene& s) { s.materials[0].unlit = true; }},
+    {Effect::emission, "emitted.rgb", [](Scene& s) { s.materials[0].emission = glm::vec3(0.5F); }},
+    {Effect::emission_variation, "emission_map",
+     [](Scene& s) {
+       s.materials[0].emission = glm::vec3(0.5F);
+       s.materials[0].emission_map = map_of(halves(3, 1.0F, 0.25F));
+     }},
+    {Effect::occlusion, "occlusion_map",
+     [](Scene& s) {
+       s.environment = constant_environment(glm::vec3(0.5F));
+       s.materials[0].occlusion_map = map_of(halves(1, 1.0F, 0.25F));
+     }},
     {Effect::double_sided, "gl_FrontFacing", [](Scene& s) { s.materials[0].double_sided = true; }},
     {Effect::point_light, "PointLight",
      [](Scene& s) {

@@ -89,6 +89,14 @@ std::vector<glm::vec4> material_block(const Material& material, const EffectSet&
     add_coordinates({share_coordinates(material)});
     block.back().w = adds_to_surface(material) ? 0.0F : 1.0F;
   }
+  const bool emission_varies = has(effects, Effect::emission_variation);
+  if (has(effects, Effect::emission)) {
+    const glm::vec3 factor =
+        emission_varies ? glm::vec3(1.0F) : glm::make_vec3(emission_map_of(material).texels.data());
+    block.emplace_back(material.emission * factor, 0.0F);
+  }
+  if (emission_varies) add_coordinates({emission_coordinates(material)});
+  if (has(effects, Effect::occlusion)) add_coordinates({occlusion_coordinates(material)});
   if (has(effects, Effect::multi_lobe)) {
     const std::vector<glm::vec4> lobes = facet_lobe_block(material);
     block.insert(block.end(), lobes.begin(), lobes.end());

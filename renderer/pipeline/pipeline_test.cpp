@@ -1,6 +1,7 @@
 // The raster pipeline on small scenes: seeds, tiles, backends, invalid normals, lights.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -165,6 +166,58 @@ TEST(Unlit, SurfacesRadiateTheirColour) {
   expect_colours(renderer.reference(256).mean, 0.03);
   scene.lights.clear();
   expect_colours(TestRenderer(scene, {8, 8}).frame(base_surface()), 1e-5);
+}
+
+// The mean of a - b over all pixels, per colour.
+std::array<double, 3> mean_difference(const Image& a, const Image& b) {
+  std::array<double, 3> sums{};
+  for (std::size_t i = 0; i < a.texel_count(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      sums.at(c) +=
+          static_cast<double>(a.texels[4 * i + c] - b.texels[4 * i + c]) / static_cast<double>(a.texel_count());
+  return sums;
+}
+
+// A checkerboard of 0.2 and 0.6 far away, times the factor, over what bumps reflect: the methods and the reference add
+// its mean. A coat darkens it by what it reflects of the view, 0.04 + 0.96 (1 - cos)^5.
+TEST(Emission, IsAddedToWhatSurfacesReflect) {
+  Image board(2, 2, 3, 0.2F);
+  for (const auto& [x, y] : {std::pair{1, 0}, {0, 1}}) std::ranges::fill(board.at(x, y), 0.6F);
+  Scene dark = square_scene(random_normals(8, 8, 0.5F, 1), {}), lit = dark;
+  lit.materials[0].emission = {2.0F, 1.0F, 0.5F};
+  lit.materials[0].emission_map = TextureMap{"board", std::make_shared<const Image>(board), {}};
+  lit.materials[0].emission_map->coordinates.transform = glm::mat3x2{50.3F, 0.0F, 0.0F, 47.9F, 0.0F, 0.0F};
+  const auto expect_added = [&](double scale) {
+    TestRenderer with(lit, {8, 8}), without(dark, {8, 8});
+    const auto frames = mean_difference(with.frame(base_surface()), without.frame(base_surface()));
+    const auto means = mean_difference(with.reference(256).mean, without.reference(256).mean);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double wanted = scale * 0.4 * lit.materials[0].emission[static_cast<int>(c)];
+      EXPECT_NEAR(frames.at(c), wanted, 1e-3 * wanted);
+      EXPECT_NEAR(means.at(c), wanted, 0.02 * wanted);
+    }
+  };
+  expect_added(1.0);
+  dark.lights.clear();
+  lit.lights.clear();
+  expect_added(1.0);
+  dark.materials[0].coat = lit.materials[0].coat = ClearCoat{.weight = 0.5F};
+  expect_added(1.0 - 0.5 * 0.04);  // nearly along the normal, where (1 - cos)^5 is below 1e-3
+}
+
+// A share of 0.3 is left of the environment's light, and all of the lamp's, for the methods and the reference alike.
+TEST(Occlusion, DimsTheEnvironmentAlone) {
+  Scene lamp = square_scene(random_normals(8, 8, 0.5F, 1), {}), both = lamp, occluded;
+  both.environment = constant_environment({0.5F, 0.75F, 1.0F});
+  occluded = both;
+  occluded.materials[0].occlusion_map = TextureMap{"seen", std::make_shared<const Image>(1, 1, 1, 0.3F), {}};
+  TestRenderer of_lamp(lamp, {8, 8}), of_both(both, {8, 8}), of_occluded(occluded, {8, 8});
+  const auto expect_share = [](const Image& lamp_alone, const Image& all, const Image& dimmed, double tolerance) {
+    const auto whole = mean_difference(all, lamp_alone), left = mean_difference(dimmed, lamp_alone);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(left.at(c), 0.3 * whole.at(c), tolerance * whole.at(c));
+  };
+  expect_share(of_lamp.frame(base_surface()), of_both.frame(base_surface()), of_occluded.frame(base_surface()), 1e-4);
+  expect_share(of_lamp.reference(64).mean, of_both.reference(64).mean, of_occluded.reference(64).mean, 0.02);
 }
 
 // Alpha from 0 to 1 across the square, cut at a half: in the picture, in its shadow and before the rays alike.

@@ -21,13 +21,14 @@ namespace {
 bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
 
 // The effects of a program: those that the method honours, the maps that the pipeline reads itself, vertex colours,
-// clear coats, unlit surfaces, and visibility, which is the same for all methods.
+// clear coats, unlit and emitting surfaces, and visibility, which is the same for all methods.
 EffectSet effects_of(const GpuScene& scene, const Method& method) {
   EffectSet shared;
   for (const SharedMap& map : shared_maps()) shared.set(static_cast<std::size_t>(map.effect));
   shared.set(static_cast<std::size_t>(Effect::vertex_color));
   shared.set(static_cast<std::size_t>(Effect::clear_coat));
   shared.set(static_cast<std::size_t>(Effect::unlit));
+  shared.set(static_cast<std::size_t>(Effect::emission));
   shared.set(static_cast<std::size_t>(Effect::cast_shadow));
   return scene.effects() & (method.info.honours | shared);
 }

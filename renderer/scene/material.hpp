@@ -105,8 +105,12 @@ struct Material {
   /// 1 channel, as lobe_parameter. Replaces metallic_roughness_map; `metallic` stays.
   std::optional<TextureMap> lobe_parameter_map;
   std::optional<TextureMap> specular_map;  ///< RGB, linear; multiplies dielectric_specular
-  std::optional<TextureMap> normal_map;    ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
-  std::optional<TextureMap> layer_map;     ///< detail over the normal map, in the same form; slopes add
+  glm::vec3 emission{0.0F};                ///< radiance that the surface adds, linear RGB, 0 and above
+  std::optional<TextureMap> emission_map;  ///< RGB, linear; multiplies emission
+  /// 1 channel, 0..1: multiplies the light of the environment.
+  std::optional<TextureMap> occlusion_map;
+  std::optional<TextureMap> normal_map;  ///< 4 channels: unit normal xyz (z > 0 out of the surface), weight 0 or 1
+  std::optional<TextureMap> layer_map;   ///< detail over the normal map, in the same form; slopes add
 
   std::optional<ClearCoat> coat;  ///< a layer over everything else
 

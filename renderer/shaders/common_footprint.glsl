@@ -19,6 +19,8 @@ struct Footprints {
   Footprint coat_width;  //? if clear_coat and coat_width_variation
   Footprint coat_normal;  //? if clear_coat and coat_normal_variation
   Footprint share;  //? if material_index
+  Footprint emission;  //? if emission_variation
+  Footprint occlusion;  //? if occlusion
 //? if screen_derivatives
   mat3 frame_dx;  // what the tangent frame's axes change by to the pixel on the right, in those axes
   mat3 frame_dy;  // and to the one above

@@ -44,6 +44,8 @@ Footprints partOf(Footprints f, int i) {
   part.coat_width = onMap(f.coat_width, p);  //? if clear_coat and coat_width_variation
   part.coat_normal = onMap(f.coat_normal, p);  //? if clear_coat and coat_normal_variation
   part.share = onMap(f.share, p);  //? if material_index
+  part.emission = onMap(f.emission, p);  //? if emission_variation
+  part.occlusion = onMap(f.occlusion, p);  //? if occlusion
 //? if screen_derivatives
   part_edges = mat2(p.dx, p.dy);
   part.frame_dx = f.frame_dx * p.dx.x + f.frame_dy * p.dx.y;

@@ -35,6 +35,8 @@ Footprints pixelFootprints() {
   f.coat_width = footprintOf(coat_uv_linear[1], coat_uv_offset_set[1]);  //? if clear_coat and coat_width_variation
   f.coat_normal = footprintOf(coat_uv_linear[2], coat_uv_offset_set[2]);  //? if clear_coat and coat_normal_variation
   f.share = footprintOf(share_uv_linear, share_uv_offset_set);  //? if material_index
+  f.emission = footprintOf(emission_uv_linear, emission_uv_offset_set);  //? if emission_variation
+  f.occlusion = footprintOf(occlusion_uv_linear, occlusion_uv_offset_set);  //? if occlusion
   return f;
 }
 
@@ -131,6 +133,8 @@ vec3 environmentRadiance(SurfacePoint p) {
 }
 
 //? end
+float unoccluded;  // the share of the environment's light that the occlusion map leaves  //? if occlusion
+
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
 //? if filter_parts
@@ -163,9 +167,12 @@ vec3 lit(SurfacePoint p) {
 //? end
   radiance += areaIntegral(p);  //? if area_sampled
   radiance += areaLit(p);  //? if area_lobes
-  radiance += environmentIntegral(p);  //? if environment_sampled
-  radiance += environmentRadiance(p);  //? elif environment_light
-  radiance += sunRadiance(p);  //? if environment_suns
+  radiance += unoccluded * environmentIntegral(p);  //? if environment_sampled and occlusion
+  radiance += environmentIntegral(p);               //? elif environment_sampled
+  radiance += unoccluded * environmentRadiance(p);  //? elif environment_light and occlusion
+  radiance += environmentRadiance(p);               //? elif environment_light
+  radiance += unoccluded * sunRadiance(p);  //? if environment_suns and occlusion
+  radiance += sunRadiance(p);               //? elif environment_suns
   return radiance;
 }
 
@@ -185,6 +192,16 @@ Surface surfaceUnder(Footprints f, vec3 base_color) {
   return Surface(base_color * (1.0 - metallic), mix(dielectric_specular, base_color, metallic));
 }
 
+//? if emission
+// The light that a surface emits through its coat (KHR_materials_clearcoat, Emission).
+vec3 emission(Footprints f, SurfacePoint p) {
+  vec3 radiance = emitted.rgb;
+  radiance *= fetch(emission_map, f.emission).rgb;  //? if emission_variation
+  return (1.0 - p.coat.share) * radiance;  //? if clear_coat
+  return radiance;                         //? else
+}
+//? end
+
 //? if alpha_mask
 // The alpha test cuts out whole pixels, by the mean alpha over the pixel, which is never drawn at random.
 float meanAlpha(Footprints f) {
@@ -199,7 +216,7 @@ float meanAlpha(Footprints f) {
 }
 //? end
 
-// The reflected radiance of a footprint, times the share of the material.
+// The radiance of a footprint, reflected and emitted, times the share of the material.
 vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? if material_index
   float share = fetch(material_share, f.share).r;
@@ -212,8 +229,11 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? else
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo);
 //? end
-  return share * lit(p);  //? if material_index
-  return lit(p);          //? else
+  unoccluded = fetch(occlusion_map, f.occlusion).r;  //? if occlusion
+  vec3 radiance = lit(p);
+  radiance += emission(f, p);  //? if emission
+  return share * radiance;  //? if material_index
+  return radiance;          //? else
 }
 
 // The mean over the footprint of the pixel.

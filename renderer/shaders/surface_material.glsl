@@ -26,6 +26,17 @@ layout(std140, binding = 0) uniform MaterialBlock {
   vec4 share_uv_linear;
   vec4 share_uv_offset_set;  // w: 1 for the first material of a surface, 0 for those that add to it
 //? end
+//? if emission
+  vec4 emitted;  // radiance
+//? end
+//? if emission_variation
+  vec4 emission_uv_linear;
+  vec4 emission_uv_offset_set;
+//? end
+//? if occlusion
+  vec4 occlusion_uv_linear;
+  vec4 occlusion_uv_offset_set;
+//? end
 //? if multi_lobe
   int facet_lobe_count;  // 0: one lobe about the normal
   FacetLobe facet_lobes[most_facet_lobes];

@@ -204,6 +204,19 @@ TEST_P(EveryMethod, DrawsUnlitSurfacesInTheirColour) {
   EXPECT_NE(picture.at(13, 8)[0], 0.75F);
 }
 
+// The same light is added to every method's image.
+TEST_P(EveryMethod, AddsEmittedLight) {
+  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
+  Scene scene = square_scene(random_normals(16, 16, 0.5F, 6), {});
+  const Image dark = TestRenderer(scene, {16, 16}).frame(*GetParam());
+  scene.materials[0].emission = {0.75F, 0.5F, 0.25F};
+  const Image lit = TestRenderer(scene, {16, 16}).frame(*GetParam());
+  for (std::size_t i = 0; i < lit.texel_count(); ++i)
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(lit.texels[4 * i + static_cast<std::size_t>(c)] - dark.texels[4 * i + static_cast<std::size_t>(c)],
+                  scene.materials[0].emission[c], 1e-5F * (1.0F + dark.texels[4 * i + static_cast<std::size_t>(c)]));
+}
+
 TEST_P(EveryMethod, DescribesItself) {
   const MethodInfo& info = GetParam()->info;
   EXPECT_EQ(&find_method(info.name), GetParam());

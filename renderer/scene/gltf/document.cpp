@@ -230,13 +230,14 @@ tinygltf::Model parse(const std::string& text, const Bytes& glb, std::map<std::s
 
 // Strides are set here, because tinygltf refuses those that are not multiples of 4, which exporters write.
 void read_members(GltfDocument& document, Bytes bytes) {
-  std::optional<std::span<const std::uint8_t>> binary = parts_of(bytes).binary;
+  const std::optional<std::span<const std::uint8_t>> binary = parts_of(bytes).binary;
   Readable source = readable(document, binary ? std::optional(binary->size()) : std::nullopt);
-  const Json& buffers = source.json.value("buffers", Json::array());
-  const bool in_chunk = !buffers.empty() && !buffers[0].contains("uri");
-  const std::string text = source.json.dump();
-  const Bytes glb = in_chunk ? glb_of(text, binary->first(buffers[0]["byteLength"].get<std::size_t>())) : Bytes{};
-  bytes = {};
+  const Json::json_pointer first("/buffers/0");
+  const bool in_chunk = source.json.contains(first) && !source.json[first].contains("uri");
+  const auto chunk_size = in_chunk ? source.json[first]["byteLength"].get<std::size_t>() : 0;
+  const std::string text = std::exchange(source.json, {}).dump();
+  const Bytes glb = in_chunk ? glb_of(text, binary->first(chunk_size)) : Bytes{};
+  bytes = {};  // the memory of a large file is needed below
   tinygltf::Model& model = document.model = parse(text, glb, source.files);
   for (std::size_t i = 0; i < model.buffers.size(); ++i) {
     const Json& buffer = document.json["buffers"][i];

@@ -6,6 +6,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/scene/model.hpp"
+#include "tests/support/damaged_text.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 namespace footprint {
@@ -39,31 +40,6 @@ GltfBuilder make_rich() {
   return quad;
 }
 
-/// One to four changes: a byte set, a digit changed (so that JSON survives and numbers go wrong), a piece cut out or
-/// doubled.
-std::string mutate(std::string text, std::mt19937& random) {
-  const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random()) % end; };
-  for (std::size_t change = 0, count = 1 + below(4); change < count && text.size() > 8; ++change) {
-    const std::size_t at = below(text.size()), length = std::min(1 + below(8), text.size() - at);
-    switch (below(6)) {
-      case 0:
-        text[at] = static_cast<char>(below(256));
-        break;
-      case 1:
-        text.erase(at, length);
-        break;
-      case 2:
-        text.insert(at, text.substr(at, length));
-        break;
-      default:
-        if (const auto digit = text.find_first_of("0123456789", at); digit != std::string::npos) {
-          text[digit] = "0123456789-."[below(12)];
-        }
-    }
-  }
-  return text;
-}
-
 void expect_sound(const Model& model) {
   for (const Mesh& mesh : model.meshes) {
     EXPECT_LT(static_cast<std::size_t>(mesh.material), model.materials.size());
@@ -82,7 +58,7 @@ int fuzz(const std::string& whole, const std::string& name, int count, unsigned 
   std::mt19937 random(seed);
   int loaded = 0;
   for (int i = 0; i < count; ++i) {
-    const auto file = test::write_file(name, mutate(whole, random));
+    const auto file = test::write_file(name, test::damaged(whole, random));
     try {
       expect_sound(load_gltf(file));
       ++loaded;

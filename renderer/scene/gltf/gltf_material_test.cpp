@@ -34,8 +34,9 @@ TEST(Gltf, MaterialFactorsAndFlags) {
        {"doubleSided", true},
        {"alphaMode", "MASK"},
        {"alphaCutoff", 0.25},
-       {"emissiveFactor", {0, 1, 0}},
-       {"extensions", {{"KHR_materials_ior", {{"ior", 2.0}}}}},
+       {"emissiveFactor", {0, 1, 0.5}},
+       {"extensions",
+        {{"KHR_materials_ior", {{"ior", 2.0}}}, {"KHR_materials_emissive_strength", {{"emissiveStrength", 4.0}}}}},
        {"pbrMetallicRoughness",
         {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.75}}}}};
   quad.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen"};
@@ -49,7 +50,8 @@ TEST(Gltf, MaterialFactorsAndFlags) {
   EXPECT_TRUE(material.double_sided);
   EXPECT_NEAR(material.dielectric_specular.g, 1.0 / 9.0, 1e-6);
   EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_sheen"));
-  EXPECT_TRUE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "emissive"));
+  EXPECT_EQ(material.emission, glm::vec3(0.0F, 4.0F, 2.0F));
+  EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "emissive"));
   EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_ior"));
 }
 
@@ -166,6 +168,30 @@ TEST(Gltf, CoatsWhoseNormalsAreTurnedOtherwiseAreNamed) {
   EXPECT_EQ(warnings({{"scale", {3, 2}}, {"offset", {0.5, 0}}}), "");
   for (const json& turned : {json{{"rotation", 0.3}}, json{{"scale", {-1, 1}}}, json{{"texCoord", 2}}})
     EXPECT_TRUE(says(warnings(turned), "turned against the one below")) << turned;
+}
+
+// glTF 2.0, section 3.9.3: light times its texture, which alone has no effect, and 1 + strength (red - 1).
+TEST(Gltf, EmissiveAndOcclusionTextures) {
+  GltfBuilder quad = make_quad();
+  Image stored(2, 2, 3, 1.0F);
+  stored.at(0, 0)[0] = 128.0F / 255.0F;
+  const json info = {{"index", quad.add_texture(stored)}};
+  json occlusion = info;
+  occlusion["strength"] = 0.25;
+  quad.json["materials"] = {{{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", info}, {"occlusionTexture", occlusion}},
+                            {{"emissiveTexture", info}}};
+  auto& primitives = quad.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[0]["material"] = 0;
+  primitives[1]["material"] = 1;
+  const Model model = load_gltf(quad.write());
+  const Material& first = model.materials.at(0);
+  EXPECT_NEAR(first.emission_map.value().image.decoded().at(0, 0)[0], 0.21586, 1e-4);  // IEC 61966-2-1
+  EXPECT_NEAR(first.occlusion_map.value().image.decoded().at(0, 0)[0], 1.0 + 0.25 * (128.0 / 255.0 - 1.0), 1e-6);
+  EXPECT_EQ(first.occlusion_map->image.decoded().at(1, 0)[0], 1.0F);
+  EXPECT_EQ(model.materials.at(1).emission, glm::vec3(0.0F));
+  EXPECT_FALSE(model.materials.at(1).emission_map);
+  EXPECT_TRUE(model.warnings.empty());
 }
 
 TEST(Gltf, MapsAreDecodedAndShared) {

@@ -32,6 +32,10 @@ const Pointer specular_glossiness("/extensions/KHR_materials_pbrSpecularGlossine
 const Pointer base_color_texture("/pbrMetallicRoughness/baseColorTexture");
 const Pointer rough_texture("/pbrMetallicRoughness/metallicRoughnessTexture");
 const Pointer normal_texture("/normalTexture");
+const Pointer emissive_texture("/emissiveTexture");
+const Pointer occlusion_texture("/occlusionTexture");
+
+constexpr double largest_emission = 1e6;
 
 float checked(double value, double low, double high, const std::string& name) {
   if (!(value >= low && value <= high)) refuse_gltf(name, fmt::format("{} is not within {} to {}", value, low, high));
@@ -216,9 +220,8 @@ class Converter {
     material.normal_map = normals(source, normal_texture);
     convert_coat(source, material);
     convert_anisotropy(source, material);
-    for (const double value : source.value("emissiveFactor", std::vector<double>()))
-      if (value != 0.0) add_once(warnings_, "emissive light is left out");
-    if (source.contains("occlusionTexture")) add_once(warnings_, "occlusion textures are left out");
+    convert_emission(source, material);
+    convert_occlusion(source, material);
     return material;
   }
 
@@ -302,6 +305,27 @@ class Converter {
     coat.roughness_map = one_channel("clearcoatRoughnessTexture", 1, coat.roughness);
     coat.normal_map = normals(source, clear_coat / "clearcoatNormalTexture");
     material.coat = std::move(coat);
+  }
+
+  // Also KHR_materials_emissive_strength. The factor 0, the default, means no light, whatever the texture.
+  void convert_emission(const Json& source, Material& material) {
+    const Pointer member("/emissiveFactor"), strength("/extensions/KHR_materials_emissive_strength/emissiveStrength");
+    if (!source.contains(member)) return;
+    material.emission = glm::vec3(color_in(source, member, 3)) *
+                        static_cast<float>(factor(source, strength, 1.0, 0.0, largest_emission));
+    if (material.emission == glm::vec3(0.0F)) return;
+    material.emission_map = map(source, emissive_texture, "emission", Transfer::srgb, to_rgb);
+  }
+
+  // 1 + strength (texel - 1), of red (glTF 2.0, section 3.9.3).
+  void convert_occlusion(const Json& source, Material& material) {
+    const float strength = factor(source, occlusion_texture / "strength", 1.0);
+    if (strength == 0.0F) return;
+    material.occlusion_map = map(
+        source, occlusion_texture, fmt::format("occlusion {}", strength), Transfer::linear, [=](const Image& image) {
+          return mapped(decode_factor(image, 0, 1.0F), 1,
+                        [=](const auto& in, const auto& out) { out[0] = 1.0F + strength * (in[0] - 1.0F); });
+        });
   }
 
   // KHR_materials_anisotropy: strength and rotation, times and turned by the mean of its texture.
@@ -444,6 +468,8 @@ std::uint64_t decoded_map_bytes(const GltfDocument& document) {
   const std::vector<Use> uses{{base_color_texture, "color", 4},
                               {rough_texture, "rough", 2},
                               {normal_texture, "normal", 4},
+                              {emissive_texture, "emission", 3},
+                              {occlusion_texture, "occlusion", 1},
                               {specular_glossiness / "diffuseTexture", "color", 4},
                               {specular_glossiness / "specularGlossinessTexture", "specular", 4 + 2 + 3},
                               {clear_coat / "clearcoatTexture", "coat weight", 1},

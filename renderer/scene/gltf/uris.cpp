@@ -27,7 +27,8 @@ bool is_there(const std::filesystem::path& path) {
 std::string missing_file(const std::filesystem::path& path, const std::string& name) {
   if (name.find('\\') != std::string::npos) return "no such file: its URI has a backslash, where `/` separates folders";
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), error)) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string other = entry.path().filename().string();
     if (lower_case(other) == lower_case(path.filename().string()))
       return fmt::format("no such file: `{:.120}` beside it differs in upper and lower case", other);

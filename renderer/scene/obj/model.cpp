@@ -30,9 +30,9 @@ constexpr std::size_t most_triangles = std::size_t{1} << 26U;
 constexpr double farthest = 1e15;   // metres, as for glTF
 constexpr double largest_uv = 1e6;  // as for glTF
 
-/// Position, texture coordinate and normal of a corner, from 0; `none` of what it lacks.
+/// Position, texture coordinate and normal of a corner, from 0; `no_index` of what it lacks.
 using Corner = std::array<std::int32_t, 3>;
-constexpr std::int32_t none = -1;
+constexpr std::int32_t no_index = -1;
 constexpr std::array<std::string_view, 3> corner_parts{"v", "vt", "vn"};
 
 struct Face {
@@ -134,7 +134,7 @@ class ObjReader {
   /// A corner as written: "7", "7/2", "7//3" or "7/2/3".
   [[nodiscard]] Corner corner(const std::string_view word) const {
     const std::array<std::size_t, 3> lengths{positions_.size(), uvs_.size(), normals_.size()};
-    Corner indices{none, none, none};
+    Corner indices{no_index, no_index, no_index};
     std::string_view rest = word;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string_view part = rest.substr(0, rest.find('/'));
@@ -215,9 +215,9 @@ class ObjReader {
     const auto at = [](const auto& values, std::int32_t index) { return values[static_cast<std::size_t>(index)]; };
     Vertex& vertex = vertices_.emplace_back();
     positions_of_vertices_.push_back(static_cast<std::uint32_t>(corner[0]));
-    vertex.normal = corner[2] == none ? glm::vec3{0.0F} : at(normals_, corner[2]);
-    without_normal_ += corner[2] == none ? 1 : 0;
-    glm::vec2 uv = corner[1] == none ? glm::vec2{0.0F} : at(uvs_, corner[1]);
+    vertex.normal = corner[2] == no_index ? glm::vec3{0.0F} : at(normals_, corner[2]);
+    without_normal_ += corner[2] == no_index ? 1 : 0;
+    glm::vec2 uv = corner[1] == no_index ? glm::vec2{0.0F} : at(uvs_, corner[1]);
     if (!is_within(glm::dvec3(uv, 0.0), largest_uv)) {
       ++replaced_uvs_;
       uv = glm::vec2{0.0F};

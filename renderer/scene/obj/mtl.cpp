@@ -33,8 +33,7 @@ struct LeftOut {
   std::string_view warning;
 };
 
-constexpr auto left_out = std::to_array<LeftOut>({{"ke", 0.0F, "emissive light (Ke) is left out"},
-                                                  {"d", 1.0F, "transparent materials (d, Tr) are drawn opaque"},
+constexpr auto left_out = std::to_array<LeftOut>({{"d", 1.0F, "transparent materials (d, Tr) are drawn opaque"},
                                                   {"tr", 0.0F, "transparent materials (d, Tr) are drawn opaque"},
                                                   {"pc", 0.0F, "clear coats (Pc) are left out"},
                                                   {"ps", 0.0F, "sheen (Ps) is left out"},
@@ -49,7 +48,7 @@ bool names_map(std::string_view keyword) {
 std::string_view map_key(std::string_view keyword) {
   if (keyword == "norm" || keyword == "map_kn") return "norm";
   if (keyword == "bump" || keyword == "map_bump") return "bump";
-  for (const char* key : {"map_kd", "map_ks", "map_pr", "map_pm"})
+  for (const char* key : {"map_kd", "map_ks", "map_ke", "map_pr", "map_pm"})
     if (keyword == key) return key;
   return {};
 }
@@ -83,6 +82,8 @@ class MtlReader {
   void set_value(std::string_view keyword, std::string_view rest) {
     if (keyword == "kd") current().diffuse = color(keyword, rest, current().diffuse);
     if (keyword == "ks") current().specular = color(keyword, rest, current().specular.value_or(glm::vec3(0.04F)));
+    if (keyword == "ke")
+      current().emission = color(keyword, rest, current().emission.value_or(glm::vec3(0.0F)), largest_number);
     if (keyword == "ns") current().exponent = number(keyword, rest, largest_number);
     if (keyword == "pr") current().roughness = number(keyword, rest, 1.0F);
     if (keyword == "pm") current().metallic = number(keyword, rest, 1.0F);
@@ -114,15 +115,15 @@ class MtlReader {
   }
 
   // One number is grey. Spectra and CIE XYZ are not read.
-  glm::vec3 color(std::string_view keyword, std::string_view rest, const glm::vec3& otherwise) {
+  glm::vec3 color(std::string_view keyword, std::string_view rest, const glm::vec3& otherwise, float most = 1.0F) {
     if (rest.starts_with("spectral") || rest.starts_with("xyz")) {
       add_once(warnings_, fmt::format("{} as a spectrum or as XYZ is left out", keyword));
       return otherwise;
     }
-    glm::vec3 out(number(keyword, rest, 1.0F));
+    glm::vec3 out(number(keyword, rest, most));
     if (without_blanks(rest).empty()) return out;
-    out.g = number(keyword, rest, 1.0F);
-    out.b = number(keyword, rest, 1.0F);
+    out.g = number(keyword, rest, most);
+    out.b = number(keyword, rest, most);
     return out;
   }
 
@@ -267,7 +268,7 @@ void MtlLibrary::add_specular(const MtlMaterial& source, Material& material) {
   if (source.specular || map != nullptr) material.dielectric_specular = source.specular.value_or(glm::vec3(1.0F));
   if (map == nullptr) return;
   material.specular_map =
-      decoded(*map, "specular", [&] { return MapTexels::packed(to_rgb(read_image(map->file, Transfer::srgb))); });
+      decoded(*map, "rgb", [&] { return MapTexels::packed(to_rgb(read_image(map->file, Transfer::srgb))); });
 }
 
 void MtlLibrary::add_bump(const MtlMap& map, Material& material) {
@@ -318,6 +319,12 @@ void MtlLibrary::add_maps(const MtlMaterial& source, Material& material) {
   if (const MtlMap* const map = find_map(source, "map_kd")) {
     material.base_color_map =
         decoded(*map, "color", [&] { return MapTexels::packed(to_rgba(read_image(map->file, Transfer::srgb))); });
+  }
+  const MtlMap* const emission = find_map(source, "map_ke");
+  if (source.emission || emission != nullptr) material.emission = source.emission.value_or(glm::vec3(1.0F));
+  if (emission != nullptr && material.emission != glm::vec3(0.0F)) {
+    material.emission_map = decoded(
+        *emission, "rgb", [&] { return MapTexels::packed(to_rgb(read_image(emission->file, Transfer::srgb))); });
   }
   add_roughness(source, material);
   const MtlMap *const normals = find_map(source, "norm"), *const bump = find_map(source, "bump");

@@ -24,6 +24,7 @@ struct MtlMap {
 struct MtlMaterial {
   glm::vec3 diffuse{1.0F};               ///< Kd
   std::optional<glm::vec3> specular{};   ///< Ks
+  std::optional<glm::vec3> emission{};   ///< Ke
   std::optional<float> exponent{};       ///< Ns
   std::optional<float> roughness{};      ///< Pr
   std::optional<float> metallic{};       ///< Pm

@@ -91,6 +91,18 @@ TEST(MtlFile, ReadsColourRoughnessAndMetalMaps) {
   EXPECT_FALSE(b.specular_map);  // beside metalness
 }
 
+TEST(MtlFile, ReadsEmittedLight) {
+  const auto folder = test::fresh_folder();
+  write_columns(folder / "e.png", {1, 0, 0}, {0, 1, 0});
+  const Model model = load_with(folder, "newmtl a\nKe 2 4 8\nmap_Ke e.png\nnewmtl b\nKe 0\nmap_Ke e.png\n");
+  EXPECT_EQ(model.materials.at(0).emission, glm::vec3(2.0F, 4.0F, 8.0F));
+  EXPECT_EQ(model.materials.at(0).emission_map.value().image.decoded().at(1, 0)[1], 1.0F);
+  EXPECT_EQ(model.materials.at(1).emission, glm::vec3(0.0F));
+  EXPECT_FALSE(model.materials.at(1).emission_map);
+  EXPECT_EQ(load_with(folder, "newmtl a\nmap_Ke e.png\n").materials.at(0).emission, glm::vec3(1.0F));
+  EXPECT_THAT(model.warnings, ElementsAre());
+}
+
 TEST(MtlFile, ReadsNormalAndBumpMaps) {
   const auto folder = test::fresh_folder();
   write_columns(folder / "n.png", {0.5F + 0.5F * 0.6F, 0.5F, 0.5F + 0.5F * 0.8F}, {0.5F, 0.5F, 1.0F});
@@ -120,7 +132,6 @@ TEST(MtlFile, ReadsNormalAndBumpMaps) {
 TEST(MtlFile, WarnsOfWhatItLeavesOut) {
   const auto warnings = [](const std::string& line) { return load_with("newmtl a\n" + line + "\n").warnings; };
   EXPECT_THAT(warnings("Ka 1 1 1\nKe 0 0 0\nd 1\nTr 0\nillum 2\nNi 1.5\nTf 1 1 1"), ElementsAre());
-  EXPECT_THAT(warnings("Ke 0 1 0"), ElementsAre("emissive light (Ke) is left out"));
   EXPECT_THAT(warnings("d 0.5\nTr 0.5"), ElementsAre("transparent materials (d, Tr) are drawn opaque"));
   EXPECT_THAT(warnings("map_Ns a.png"), ElementsAre("the MTL statement map_Ns is not read: its maps are left out"));
   EXPECT_THAT(warnings("map_Kd a.png"),

@@ -58,8 +58,9 @@ std::vector<std::string> told_apart(std::vector<std::string> names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (counts[names[i]] == 1) continue;
     std::string name = names[i];
-    do name += fmt::format(" [{}]", i);
-    while (counts.contains(name));  // as a name of the input, or of one before
+    do {
+      name += fmt::format(" [{}]", i);
+    } while (counts.contains(name));  // as a name of the input, or of one before
     counts[name] = 1;
     names[i] = std::move(name);
   }

@@ -3,6 +3,7 @@
 
 #include "tests/command_line/bumpy_quad.hpp"
 #include "tests/command_line/program_case.hpp"
+#include "tests/support/png_file.hpp"
 
 namespace footprint::test {
 namespace {
@@ -17,6 +18,13 @@ std::string grey_hdr(int height, char mantissa) {
 // Two pixels, 0.5 above 0.25, stored downwards and upwards; the exposure of the second is 2.
 std::string turned_hdr() { return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n@@@\x81   \x81"; }
 std::string turned_back_hdr() { return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n+Y 2 +X 1\n@@@\x81@@@\x82"; }
+
+// White under alpha 0.
+std::string uncovered_png() {
+  const std::string row = std::string(1, '\0') + "\xff\xff\xff" + std::string(1, '\0');
+  const auto bytes = png_file(1, 1, 8, PngColor::rgba, row);
+  return {bytes.begin(), bytes.end()};
+}
 
 std::string grey_png(char value) {
   const std::string row = std::string(1, '\0') + std::string(6, value);
@@ -40,6 +48,7 @@ Case row(const std::string& name, std::vector<std::string> arguments) {
                     {"pairs/view.hdr", grey_hdr(2, 0x40)},
                     {"pairs/view.png", grey_png('\0')},
                     {"others/view.PNG", grey_png('\xff')},
+                    {"uncovered.png", uncovered_png()},
                     {"turned.hdr", turned_hdr()},
                     {"turned_back.hdr", turned_back_hdr()},
                     {"nightly/near/one.hdr", grey_hdr(2, 0x40)},
@@ -136,6 +145,8 @@ std::vector<Case> wrong_scores() {
       wrong("ScoreWithNoiseOfAnotherSize",
             {"{}/darker.hdr", "{}/darkest.hdr", "--reference", "{}/reference.hdr", "--standard-error", "{}/tall.hdr"},
             {"2 x 3", "2 x 2"}),
+      wrong("ScoreOfNoCoverage", {"{}/uncovered.png", "--reference", "{}/reference.hdr"},
+            {"uncovered.png", "alpha is 0 everywhere"}),
       wrong("ScoreOfText", {"{}/text.png", "--reference", "{}/reference.hdr"}, {"text.png"}),
       wrong("ScoreOfNothing", {"{}/missing.exr", "--reference", "{}/reference.hdr"}, {"missing.exr", "no such file"}),
       wrong("ScoreAgainstDisplayedColours", {"{}/darker.hdr", "--reference", "{}/white.png"},

@@ -247,7 +247,11 @@ NormalMap decode_normal_map(const Image& stored, double scale, NormalChannels ch
 NormalMap decode_unit_normals(const Image& stored, double scale, NormalChannels channels) {
   require_two_channels(stored);
   const bool xy = holds_xy(stored, channels);
-  xy ? require_unit_xy(stored) : require_unit_vectors(stored);
+  if (xy) {
+    require_unit_xy(stored);
+  } else {
+    require_unit_vectors(stored);
+  }
   return to_normal_map(
       stored, [](const auto& v) { return v; }, xy, scale);
 }

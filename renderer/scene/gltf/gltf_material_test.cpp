@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/image/image_io.hpp"
 #include "renderer/scene/model.hpp"
 #include "tests/support/expect_near.hpp"
 #include "tests/support/gltf_builder.hpp"
@@ -53,6 +54,25 @@ TEST(Gltf, MaterialFactorsAndFlags) {
   EXPECT_EQ(material.emission, glm::vec3(0.0F, 4.0F, 2.0F));
   EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "emissive"));
   EXPECT_FALSE(says(fmt::format("{}", fmt::join(model.warnings, "; ")), "KHR_materials_ior"));
+}
+
+// A file of floats as a texture: normals must be encoded like those of a PNG, roughness must be 0 to 1.
+TEST(Gltf, FloatsInTexturesAreCheckedAsTheirUseDemands) {
+  GltfBuilder quad = make_quad();
+  Image unit(2, 1, 3);
+  unit.texels = {0.6F, 0.0F, 0.8F, 0.0F, -0.6F, 0.8F};
+  const std::filesystem::path file = test::write_file("floats/model.gltf", "");
+  write_exr(file.parent_path() / "floats.exr", unit);
+  quad.json["images"] = {{{"uri", "floats.exr"}}};
+  quad.json["textures"] = {{{"source", 0}}};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  quad.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+  const auto load = [&] { return load_gltf(test::write_file("floats/model.gltf", quad.text())); };
+  const std::string error = test::usage_error(load);
+  EXPECT_TRUE(says(error, "floats.exr")) << error;
+  EXPECT_TRUE(says(error, "normals of -1 to 1")) << error;
+  quad.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}}};
+  EXPECT_TRUE(says(fmt::format("{}", fmt::join(load().warnings, "; ")), "1 values are outside of 0 to 1 (-0.6 to 1)"));
 }
 
 TEST(Gltf, MaterialsOfOneNameAreToldApart) {

@@ -414,15 +414,23 @@ class Converter {
     if (!found) return std::nullopt;
     const double scale = checked(material.value(member / "scale", 1.0), -1e4, 1e4, member.back() + ".scale");
     found->map.image = cached(fmt::format("{} normal {}", found->image, scale), [&] {
-      const auto decode = [scale](const Image& texels) { return decode_normal_map(texels, scale); };
-      std::vector<std::string> faults;
       const FileImage file = stored(found->image, Transfer::linear);
-      if (file.floats) require_encoded_normals(file.image, NormalChannels::xyz);
-      MapTexels texels = stored_normals(file, decode, found->map.name, faults);
-      for (std::string& line : faults) add_once(warnings_, std::move(line));
-      return texels;
+      try {
+        return decoded_normals(file, scale, found->map.name);
+      } catch (const Error& error) {
+        throw error.within(found->map.name);
+      }
     });
     return std::move(found->map);
+  }
+
+  MapTexels decoded_normals(const FileImage& file, double scale, const std::string& name) {
+    if (file.floats) require_encoded_normals(file.image, NormalChannels::xyz);
+    const auto decode = [scale](const Image& texels) { return decode_normal_map(texels, scale); };
+    std::vector<std::string> faults;
+    MapTexels texels = stored_normals(file, decode, name, faults);
+    for (std::string& line : faults) add_once(warnings_, std::move(line));
+    return texels;
   }
 
   // diffuse (1 - max specular) of KHR_materials_pbrSpecularGlossiness. diffuse: none is white.

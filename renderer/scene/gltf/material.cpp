@@ -143,7 +143,8 @@ struct Texture {
 std::vector<std::optional<TextureMap>*> optional_maps(Material& material) {
   std::vector<std::optional<TextureMap>*> maps{&material.normal_map};
   if (material.coat) maps.push_back(&material.coat->normal_map);
-  maps.insert(maps.end(), {&material.base_color_map, &material.metallic_roughness_map, &material.specular_map});
+  maps.insert(maps.end(), {&material.base_color_map, &material.metallic_roughness_map, &material.specular_map,
+                           &material.emission_map, &material.occlusion_map});
   if (material.coat) maps.insert(maps.end(), {&material.coat->weight_map, &material.coat->roughness_map});
   std::erase_if(maps, [](const std::optional<TextureMap>* map) { return !*map; });
   return maps;

@@ -315,18 +315,20 @@ class Converter {
     material.emission = glm::vec3(color_in(source, member, 3)) *
                         static_cast<float>(factor(source, strength, 1.0, 0.0, largest_emission));
     if (material.emission == glm::vec3(0.0F)) return;
-    material.emission_map = map(source, emissive_texture, "emission", Transfer::srgb, to_rgb);
+    material.emission_map = map(source, emissive_texture, "emission", Transfer::srgb, color_channels, to_rgb);
   }
 
   // 1 + strength (texel - 1), of red (glTF 2.0, section 3.9.3).
   void convert_occlusion(const Json& source, Material& material) {
     const float strength = factor(source, occlusion_texture / "strength", 1.0);
     if (strength == 0.0F) return;
-    material.occlusion_map = map(
-        source, occlusion_texture, fmt::format("occlusion {}", strength), Transfer::linear, [=](const Image& image) {
-          return mapped(decode_factor(image, 0, 1.0F), 1,
-                        [=](const auto& in, const auto& out) { out[0] = 1.0F + strength * (in[0] - 1.0F); });
-        });
+    constexpr std::array<std::size_t, 1> red{0};
+    const auto decode = [=](const Image& image) {
+      return mapped(decode_factor(image, 0, 1.0F), 1,
+                    [=](const auto& in, const auto& out) { out[0] = 1.0F + strength * (in[0] - 1.0F); });
+    };
+    material.occlusion_map =
+        map(source, occlusion_texture, fmt::format("occlusion {}", strength), Transfer::linear, red, decode);
   }
 
   // KHR_materials_anisotropy: strength and rotation, times and turned by the mean of its texture.

@@ -97,7 +97,7 @@ TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames
   EXPECT_EQ(frames[3].seconds, 3.0);
   EXPECT_EQ(scene.bounds.lower.x, -1.0F);
   EXPECT_EQ(scene.bounds.upper.x, 7.0F);
-  const Scene later = scene_at_time(run, 1.0, scene.bounds);
+  const Scene later = scene_at_time(run, 1.0, PlacedBounds{scene.bounds, scene.origin});
   EXPECT_EQ(later.meshes.front().vertices.front().position.x, scene.meshes.front().vertices.front().position.x + 2.0F);
   EXPECT_EQ(later.camera, scene.camera) << "framed on all frames";
   run.overrides.model.time = 1.0;

@@ -51,7 +51,6 @@ double difference_from_reversed(const Method& method, bool turns_tangents) {
 class BacksByMethod : public ::testing::TestWithParam<const Method*> {};
 
 TEST_P(BacksByMethod, AreTheReversedSurface) {
-  if (fits_take_long(*GetParam())) GTEST_SKIP() << "fits take long";
   EXPECT_LT(difference_from_reversed(*GetParam(), true), 1e-4);
 }
 

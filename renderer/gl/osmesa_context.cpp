@@ -28,7 +28,8 @@ constexpr unsigned gl_unsigned_byte = 0x1401;
 constexpr int buffer_side = 16;
 
 [[noreturn]] void fail(const std::string& message) {
-  throw Error(ErrorKind::machine, "OSMesa", message, "install libosmesa6, which Mesa has no more from 25.1 on, or use --backend egl");
+  throw Error(ErrorKind::machine, "OSMesa", message,
+              "install libosmesa6, which Mesa has no more from 25.1 on, or use --backend egl");
 }
 
 /// libOSMesa.so.8 and the functions of it that are used here. Never unloaded: the LLVM within keeps per-thread state

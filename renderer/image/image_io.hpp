@@ -22,7 +22,7 @@ enum class Transfer {
 /// An image and what else its file says.
 struct FileImage {
   Image image{};
-  bool floats = false;             ///< linear floats of any size, not integers that mean 0 to 1
+  bool floats = false;               ///< linear floats of any size, not integers that mean 0 to 1
   std::vector<std::string> notes{};  ///< what of the file is left out, one line each, without its name
 };
 

@@ -50,9 +50,7 @@ double difference_from_reversed(const Method& method, bool turns_tangents) {
 
 class BacksByMethod : public ::testing::TestWithParam<const Method*> {};
 
-TEST_P(BacksByMethod, AreTheReversedSurface) {
-  EXPECT_LT(difference_from_reversed(*GetParam(), true), 1e-4);
-}
+TEST_P(BacksByMethod, AreTheReversedSurface) { EXPECT_LT(difference_from_reversed(*GetParam(), true), 1e-4); }
 
 TEST(Backs, WithoutReversedTangentsAreAnotherSurface) {  // must fail
   EXPECT_GT(difference_from_reversed(find_method("direct"), false), 0.1);

@@ -49,7 +49,7 @@ TEST_P(FootprintFilters, OnePartIsTheWhole) {
 // For every method: a pixel of 8 x 8 texels in as many parts has nothing left to prefilter.
 TEST_P(FootprintFilters, PartsConvergeToTheReference) {
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
-  const int side = map_side(*GetParam(), 128);
+  const int side = map_side(*GetParam(), 128, 64);
   const auto scene = [side] {
     return square_scene(random_normals(side, side, 0.5F, 7), {.brdf = {}, .roughness = 0.5F});
   };

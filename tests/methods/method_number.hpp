@@ -13,10 +13,10 @@ namespace footprint::testing {
   return static_cast<std::size_t>(std::ranges::find(all_methods(), &method) - all_methods().begin());
 }
 
-/// The side of a test's square map for a method: `side`, or a quarter of it for best_lobes, whose fits of larger maps
-/// take tens of seconds. `scripts/test --all` has whole maps.
-[[nodiscard]] inline int map_side(const Method& method, int side) {
-  return method.info.name == "best_lobes" && !all_tests() ? side / 4 : side;
+/// The side of a test's square map for a method: `side`, or for best_lobes, whose fits of larger maps take tens of
+/// seconds, a quarter of it and at least `least`. `scripts/test --all` has whole maps.
+[[nodiscard]] inline int map_side(const Method& method, int side, int least = 1) {
+  return method.info.name == "best_lobes" && !all_tests() ? std::max(side / 4, least) : side;
 }
 
 }  // namespace footprint::testing

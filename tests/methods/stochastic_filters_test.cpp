@@ -24,7 +24,7 @@ class StochasticFilters : public ::testing::TestWithParam<const Method*> {};
 // reference that filters after shading. 256 draws have a sixteenth of the error of one.
 TEST_P(StochasticFilters, ConvergeToTheReference) {
   if (!GetParam()->info.resolves_texels) GTEST_SKIP() << "has one BRDF for the whole map";
-  const int side = map_side(*GetParam(), 128);
+  const int side = map_side(*GetParam(), 128, 64);
   const auto scene = [side] {
     return square_scene(random_normals(side, side, 0.5F, 7), {.brdf = {}, .roughness = 0.5F});
   };

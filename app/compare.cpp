@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
+#include <system_error>
 
 #include "app/child_process.hpp"
 #include "app/experiment_runs.hpp"
@@ -44,7 +45,8 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
   const ResultsWatch so_far = [&](Results results) {
     sign(results.tool, results.backend);
     results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished; more distances follow");
-    write_report(results, folder.run());
+    // A folder by itself: the report of the whole run says what is lost.
+    RunFolder(folder.path()).write_text("index.html", [&] { return results_page(results); });
     if (!quiet && !std::exchange(has_message, true))
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
@@ -187,6 +189,8 @@ std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs
       Error(ErrorKind::machine, "--video", fmt::format("{} cannot be started", ffmpeg.string()), "try it by hand"),
       [&] { progress("the film", 0.0); });
   if (exit_code == 0 && fs::is_regular_file(folder / film_file)) return film_file;
+  std::error_code ignored;
+  fs::remove(folder / film_file, ignored);  // half of one
   throw Error(ErrorKind::machine, "--video",
               fmt::format("ffmpeg ended with {}: {}", exit_code, words.empty() ? "no message" : words.substr(0, 400)),
               "leave --video out: finished frames are stored, and are not rendered again");

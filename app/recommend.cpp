@@ -140,7 +140,10 @@ void run_recommend_command(const RecommendArguments& arguments) {
             },
         .first_answer =
             [&](const Recommendation& answer) {
-              write_answer(answer, folder.run());
+              // A folder by itself: the final answer says what is lost.
+              const RunFolder until_the_end(folder.path());
+              until_the_end.write_text("recommend.json", [&] { return recommendation_json(answer); });
+              until_the_end.write_text("index.html", [&] { return recommendation_page(answer); });
               display.finish();
               write_output(recommendation_text(answer) + "\n");
               if (!arguments.quiet)

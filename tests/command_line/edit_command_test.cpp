@@ -76,7 +76,7 @@ const std::vector<Case> edit_cases{
     {.name = "FullDiskUnderEdit",
      .arguments = edit({"--set", "weave.height=0.1", "--frames", "1"}),
      .exit_code = 3,
-     .errors_have = {"work/out/images/", "free some space"},
+     .errors_have = {"work/out/edit.json", "free some space"},
      .file_size_limit = 256},
     {.name = "ControlCOfEdit",
      .arguments = {"edit", "woven_cloth", "--set", "weave.warp_width=0.1:0.5", "--frames", "1000", "-o", "{}/out"},

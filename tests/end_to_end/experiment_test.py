@@ -356,8 +356,9 @@ pictures = [{ method = "toksvig", crop = [0, 0, 0.5, 1] }]
         self.assertEqual(results_of(out)["film"], "images/film.mp4")
         process, _, out = self.film("bad", 'for last; do :; done; echo half > $last; echo "no such codec" >&2; exit 1')
         self.assertIn("--video: ffmpeg ended with 1: no such codec", process.communicate()[1])
-        self.assertEqual(process.returncode, 3)
-        self.assertEqual(list(out.rglob("film*")) + list(out.glob("*.json")), [])
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(list(out.rglob("film*")), [])
+        self.assertIsNone(results_of(out)["film"])
         process, tools, out = self.film("stopped", 'touch "$(dirname "$0")/started"; for last; do :; done; echo half > $last; exec sleep 60')
         while not (tools / "started").exists() and process.poll() is None:
             time.sleep(0.02)

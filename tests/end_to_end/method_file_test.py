@@ -82,7 +82,7 @@ class MethodFileTest(WholeRunTest):
 
     def test_an_image_that_is_not_finite_is_named_with_exit_code_1(self):
         broken = self.file(HEAD + BODY.replace("= lobe_cutoff.x", "= sqrt(-1.0 - lobe_cutoff.x)"), "broken.glsl")
-        for name in ("broken.exr", "broken.png"):
+        for name in ("not_finite.exr", "not_finite.png"):
             error = self.refused("render", "bumps", *SMALL, "--method", broken, "--quiet", "-o", name, code=1)
             self.assertRegex(error, f"{name}: [1-9][0-9]* of 2304 pixels are not finite")
         arguments = ("bumps", *SMALL, "--spp", 4, "--methods", f"toksvig,{broken}", "-q", "-o", "all")

@@ -214,10 +214,28 @@ Bytes glb_of(std::string_view text, std::span<const std::uint8_t> binary) {
   return file;
 }
 
+// The reading of `files` as tinygltf asks for it: 2.9, which Debian 13 has, also asks for sizes.
+template <class Callbacks>
+Callbacks callbacks_for(std::map<std::string, Bytes>& files) {
+  Callbacks callbacks{};
+  callbacks.FileExists = file_exists;
+  callbacks.ExpandFilePath = same_name;
+  callbacks.ReadWholeFile = read_whole_file;
+  callbacks.WriteWholeFile = write_nothing;
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string* /*error*/, const std::string& name, void* user) {
+      *size = (*static_cast<std::map<std::string, Bytes>*>(user))[name].size();
+      return true;
+    };
+  }
+  callbacks.user_data = &files;
+  return callbacks;
+}
+
 tinygltf::Model parse(const std::string& text, const Bytes& glb, std::map<std::string, Bytes>& files) {
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_encoded, nullptr);
-  loader.SetFsCallbacks({file_exists, same_name, read_whole_file, write_nothing, &files});
+  loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(files));
   tinygltf::Model model;
   std::string error, warning;
   const bool loaded =

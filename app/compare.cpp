@@ -46,7 +46,9 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
     sign(results.tool, results.backend);
     results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished; more distances follow");
     // A folder by itself: the report of the whole run says what is lost.
-    RunFolder(folder.path()).write_text("index.html", [&] { return results_page(results); });
+    const RunFolder interim(folder.path());
+    interim.write_text("results.json", [&] { return results_json(results); });
+    interim.write_text("index.html", [&] { return results_page(results); });
     if (!quiet && !std::exchange(has_message, true))
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));

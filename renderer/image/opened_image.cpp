@@ -72,12 +72,14 @@ std::vector<unsigned char> bytes_from(IOProxy& source, std::size_t start, const 
   return bytes;
 }
 
-// Chroma of half the size is refused by OpenImageIO in words about sampling.
+Error refusal_of_chroma(const std::string& name) {
+  return {ErrorKind::usage, name, "stores luminance and chroma (Y, RY, BY), which are not read", "save it as RGB"};
+}
+
+// OpenImageIO 2.4 refuses chroma of half the size in words about sampling.
 Error refusal_of(const std::string& name, const std::string& reason) {
-  if (reason.find("ubsampled") == std::string::npos)
-    return unreadable_image(name, fmt::format("cannot be read: {}", reason));
-  return {ErrorKind::usage, name, "stores luminance and chroma of less resolution (Y, RY, BY), which are not read",
-          "save it as RGB"};
+  if (reason.find("ubsampled") != std::string::npos) return refusal_of_chroma(name);
+  return unreadable_image(name, fmt::format("cannot be read: {}", reason));
 }
 
 PixelWindow stored_window(const OIIO::ImageSpec& spec) { return {spec.x, spec.y, spec.width, spec.height}; }
@@ -160,6 +162,8 @@ void OpenedImage::open_by_oiio(IOProxy& source) {
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   input_ = OIIO::ImageInput::create(format_, false, &config, proxy);
   if (!input_ || !input_->open(name_, spec_, config)) throw refusal_of(name_, reason_of_failure(input_.get()));
+  // OpenImageIO 2.5 calls the channels R, G and B, and converts only chroma of half the size.
+  if (spec_.get_int_attribute("openexr:luminancechroma") != 0) throw refusal_of_chroma(name_);
   if (format_ == "openexr" && limits_.channels == 0) choose_part();
   take_declarations();
   if (limits_.channels == 0) {

@@ -35,11 +35,9 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
   const ResultsWatch so_far = [&](Results results) {
     sign(results.tool, results.backend);
     results.scene.warnings.insert(results.scene.warnings.begin(), "the run is not finished; more distances follow");
-    // A folder by itself: the report of the whole run says what is lost.
-    const RunFolder interim(folder.path());
-    interim.write_text("results.json", [&] { return results_json(results); });
-    interim.write_text("index.html", [&] { return results_page(results); });
-    if (!quiet && !std::exchange(has_message, true))
+    const bool has_page = write_interim(
+        folder, "results.json", [&] { return results_json(results); }, [&] { return results_page(results); });
+    if (has_page && !quiet && !std::exchange(has_message, true))
       write_message(fmt::format("page of the finished distances, until the run ends: {}",
                                 (folder.path() / "index.html").string()));
   };

@@ -140,13 +140,12 @@ void run_recommend_command(const RecommendArguments& arguments) {
             },
         .first_answer =
             [&](const Recommendation& answer) {
-              // A folder by itself: the final answer says what is lost.
-              const RunFolder until_the_end(folder.path());
-              until_the_end.write_text("recommend.json", [&] { return recommendation_json(answer); });
-              until_the_end.write_text("index.html", [&] { return recommendation_page(answer); });
+              const bool has_page = write_interim(
+                  folder, "recommend.json", [&] { return recommendation_json(answer); },
+                  [&] { return recommendation_page(answer); });
               display.finish();
               write_output(recommendation_text(answer) + "\n");
-              if (!arguments.quiet)
+              if (has_page && !arguments.quiet)
                 write_message(fmt::format("page of the first answer, until the run ends: {}",
                                           (folder.path() / "index.html").string()));
             }};

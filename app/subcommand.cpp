@@ -109,6 +109,15 @@ void keep(OutputFolder& folder) {
   folder.commit();
 }
 
+bool write_interim(const OutputFolder& folder, const std::string& document,
+                   const std::function<std::string()>& make_document, const std::function<std::string()>& make_page) {
+  const RunFolder interim(folder.path());  // with losses of its own
+  interim.write_text(document, make_document);
+  const std::size_t before = interim.losses().size();
+  interim.write_text("index.html", make_page);
+  return interim.losses().size() == before;
+}
+
 void print_results(const Results& results, const std::filesystem::path& folder, bool verbose) {
   write_output(verbose ? fmt::format("{}\npage: {}\n", results_table(results), (folder / "index.html").string())
                        : fmt::format("{}\n  page: {}\n  every figure: {}\n", results_summary(results),

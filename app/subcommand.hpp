@@ -172,6 +172,11 @@ auto write_whole(const std::filesystem::path& output, Write write) {
   }
 }
 
+/// Writes the document and the page of what is finished so far into the hidden folder, where the final ones take their
+/// place: what fails here is no loss of the run. Returns whether the page is there.
+bool write_interim(const OutputFolder& folder, const std::string& document,
+                   const std::function<std::string()>& make_document, const std::function<std::string()>& make_page);
+
 /// Signs `results`, writes them into the folder by `write` and moves it to its place, where it replaces the images that
 /// an earlier run's `document` lists. Errors (interrupted): nothing is moved.
 template <typename Measured, typename Write>

@@ -125,6 +125,23 @@ class Losses(WholeRunTest):
                 self.assert_lost(self.refuse(pattern, *arguments, "-o", out), "No space left on device")
                 self.assertTrue(json.loads((out / document).read_text()))
 
+    def test_what_an_interim_page_loses_is_no_loss(self):
+        """The first results.json and page of a run are of what is finished; the last ones take their place."""
+        methods = ["--methods", "direct,toksvig", "--repeats", "1", "--spp", "16"]
+        cases = {
+            "compare": (["compare", *SCENE[:3], "--distance", "2,4", "--bound", "off", *methods], "page of the finished distances"),
+            "recommend": (["recommend", *SCENE, *methods], "page of the first answer"),
+        }
+        for name, (arguments, announcement) in cases.items():
+            for file in ("index.html", {"compare": "results.json", "recommend": "recommend.json"}[name]):
+                with self.subTest(command=name, file=file):
+                    out = self.folder / f"interim_{name}_{file}"
+                    done = self.refuse(f"interim_{name}_[^/]*/{file}$", *arguments, "-o", out, FOOTPRINT_FAULT_TIMES="1")
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertTrue((out / file).is_file())
+                    self.assertNotIn("not written", (out / "index.html").read_text())
+                    self.assertEqual(announcement in done.stderr, file != "index.html", done.stderr)
+
     def map(self):
         file = self.folder / "bumps.png"
         if not file.exists():

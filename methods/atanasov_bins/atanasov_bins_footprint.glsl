@@ -48,8 +48,8 @@ struct Sum {
   float area;
 };
 
-// The result of an incomplete sum: not a number, because llvmpipe ends all loops of a pixel after 65535 rounds and no
-// incomplete image must pass unnoticed.
+// The result of an incomplete sum: not a number, because Mesa 22.3's llvmpipe ends all loops of a pixel after 65535
+// rounds and no incomplete image must pass unnoticed.
 Sum notWhole() {
   float no_number = uintBitsToFloat(0x7fc00000u);
   return Sum(no_number, no_number);

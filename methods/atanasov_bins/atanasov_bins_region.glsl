@@ -1,8 +1,9 @@
 // A footprint on the map as a parallelogram in texels, and the areas of boxes that it covers.
 //
-// llvmpipe ends all loops of a pixel after 65535 rounds, over all lights, and truncates the sum. Therefore a call of
-// the module has a budget of rounds, which its parts share. Eight pixels are drawn together and wait for each other at
-// the end of every loop, so the largest part of the eight counts.
+// Mesa 22.3's llvmpipe ends all loops of a pixel after 65535 rounds, over all lights, and truncates the sum. Therefore a
+// call of the module has a budget of rounds, which its parts share; newer drivers have the same, for the same picture.
+// Eight pixels are drawn together and wait for each other at the end of every loop, so the largest part of the eight
+// counts.
 
 const float other_rounds = 25000.0;  // drawn normals and their reflection  //? if lobes_listed
 const float other_rounds = 5000.0;   // lookups under the footprint         //? else

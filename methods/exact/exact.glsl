@@ -188,9 +188,9 @@ void addPlace(inout Sum sum, Effective e, vec2 place, float weight, Query q) {
   addFacets(sum, e, facetsAbout(e, normal.xyz, uv), weight, q);
 }
 
-// The result of a loop that the driver ended early: not a number, so that no incomplete image passes unnoticed. llvmpipe
-// ends loops after 65535 rounds per pixel, over all loops and lights. Four places per round make that enough for seven
-// lights and more.
+// The result of a loop that the driver ended early: not a number, so that no incomplete image passes unnoticed. Mesa
+// 22.3's llvmpipe ends loops after 65535 rounds per pixel, over all loops and lights. Four places per round make that
+// enough for seven lights and more.
 Sum notWhole() { return evenSum(uintBitsToFloat(0x7fc00000u)); }
 
 // The mean over a sum. If all texels lack a normal it is that of a flat facet, as with methods that blend normals.

@@ -508,7 +508,10 @@ TEST(ExactUnderAnEnvironment, IsNearTheReference) {
             0.05);
 }
 
-// llvmpipe ends loops after 65535 rounds. A pixel of which that leaves texels out must not pass for the sum of all.
+// Whether the driver ends loops after 65535 rounds, as llvmpipe of Mesa 22.3 does and that of 25.0 does not.
+bool ends_loops() { return shared_context().info().version.find("Mesa 22.") != std::string::npos; }
+
+// A pixel of which the driver leaves texels out must not pass for the sum of all.
 TEST(Exact, IsNeverAPartOfTheSum) {
   const Scene scene = flat_quad(random_normals(256, 256, 0.5F, 13), 12.0F);
   Scene many = scene;
@@ -524,7 +527,7 @@ TEST(Exact, IsNeverAPartOfTheSum) {
       }
       EXPECT_NEAR(all.texels[i] / once.texels[i], 24.0, 0.01) << text;
     }
-    EXPECT_GT(left_out, 0) << text << ": nothing was put to the test";
+    EXPECT_EQ(left_out > 0, ends_loops()) << text << ": pixels that were left out: " << left_out;
   }
 }
 

@@ -155,8 +155,9 @@ uint leafBegin(uint leaf, uint count, int depth) {
   return depth == 0 ? low : high << uint(32 - depth) | low >> uint(depth);
 }
 
-// llvmpipe ends loops after 65535 rounds per pixel, over all lights, and an incomplete image must not pass unnoticed. A
-// step of the walk takes one round, and five more if any of the eight pixels that are drawn together is in a leaf.
+// Mesa 22.3's llvmpipe ends loops after 65535 rounds per pixel, over all lights, and an incomplete image must not pass
+// unnoticed. A step of the walk takes one round, and five more if any of the eight pixels that are drawn together is in
+// a leaf.
 float notWhole() { return uintBitsToFloat(0x7fc00000u); }
 // A single call may take all rounds. Each of several calls has an equal part of one half, and takes up to a quarter of
 // the remainder of the other half.

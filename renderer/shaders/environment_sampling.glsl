@@ -23,7 +23,7 @@ vec3 environmentIntegral(SurfacePoint p) {
     if (!reachesFacets(wi) || !arrives(direction)) continue;
     radiance += reflectance(p, wi) * texelFetch(environment_lights, ivec2(i, 0), 0).rgb;
   }
-  // llvmpipe ends loops after 65535 iterations per pixel; a partial sum would be wrong.
+  // Mesa 22.3's llvmpipe ends loops after 65535 iterations per pixel; a partial sum would be wrong.
   if (i < count) return vec3(uintBitsToFloat(0x7fc00000u));
   return radiance;
 }

@@ -58,8 +58,10 @@ class Zink(WholeRunTest):
 
     def test_probing_survives_a_driver_that_osmesa_lacks(self):
         # OSMesa of Mesa 22.3 crashes where GALLIUM_DRIVER names a driver that needs a device.
-        said = self.run_by_zink("info")
-        self.assertRegex(said, r"osmesa +(llvmpipe|softpipe|OSMesa)")
+        osmesa = re.search(r"osmesa +(.*)", self.run_by_zink("info"))[1]
+        if "install libosmesa6" in osmesa:
+            self.skipTest(osmesa)
+        self.assertRegex(osmesa, r"^(llvmpipe|softpipe|OSMesa)")
 
     def test_methods_draw_the_same_image_as_by_llvmpipe(self):
         methods = [method["name"] for method in json.loads(run("list", "methods", "--json"))["methods"]]

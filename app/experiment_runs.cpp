@@ -12,6 +12,8 @@
 #include "app/child_process.hpp"
 #include "app/folders.hpp"
 #include "app/subcommand.hpp"
+#include "experiments/runner/matrix.hpp"
+#include "experiments/runner/region.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/process.hpp"
@@ -57,6 +59,19 @@ ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results
   return std::move(results.report);
 }
 
+// failed: set to the losses of the report, if it has none.
+void report_region(const Experiment& stated, const std::vector<Results>& settings, const fs::path& output,
+                   std::optional<Error>& failed) {
+  const RegionReport report = region_report(stated, settings);
+  const auto [text, path, lost] = write_whole(output, [&](OutputFolder& folder) {
+    write_region(report, folder.run());
+    keep(folder);
+    return region_table(report);
+  });
+  write_output(fmt::format("{}\npage: {}\n", text, (path / "index.html").string()));
+  if (!failed) failed = lost;
+}
+
 // Runs a group into its folders below `output`, prints its results and passes them to the listener.
 // failed: set to the first failure of a row or loss of a file, if it has none.
 void run_group(const RequestedExperiments& requested, const ExperimentGroup& group, const fs::path& output,
@@ -69,12 +84,13 @@ void run_group(const RequestedExperiments& requested, const ExperimentGroup& gro
       return run_into(experiment, folder, finished, display.callback(), guard.watch(experiment));
     });
     display.finish();
-    if (!group.matrix) print_results(results, path);
-    listener.experiment(results);
+    if (!group.matrix && !group.region) print_results(results, path);
+    if (!group.region || all.empty()) listener.experiment(results);  // of a region the stated setting
     if (!failed) failed = row_failures(results);
     if (!failed) failed = lost;
     all.push_back(std::move(results));
   }
+  if (group.region) report_region(*group.region, all, output, failed);
   if (!group.matrix) return;
   listener.matrix(report_matrix(group, std::move(all), output / requested.folder_of(*group.matrix), failed));
 }
@@ -186,6 +202,15 @@ std::vector<ExperimentGroup> groups_of(const Experiment& named, const Experiment
                                  : fmt::format("its first is {}", members_of_matrix(named).front().name));
 }
 
+ExperimentGroup region_group(const Experiment& stated, const ExperimentRequest& request) {
+  if (!stated.members.empty())
+    throw Error(ErrorKind::usage, "--region", fmt::format("{} is made of other experiments", stated.name),
+                "name one of them");
+  if (!request.only.empty())
+    throw Error(ErrorKind::usage, "--only", "excludes --region", "take values out of the experiment's [region]");
+  return {.experiments = settings_of_region(stated), .region = stated};
+}
+
 // The settings that enter are those that a command line may set beside the file.
 std::string fingerprint_of(const RequestedExperiments& requested, const ExperimentRequest& request) {
   ContentHash hash;
@@ -205,6 +230,7 @@ std::string fingerprint_of(const RequestedExperiments& requested, const Experime
   };
   for (const ExperimentGroup& group : requested.groups) std::ranges::for_each(group.experiments, add_experiment);
   hash.add(request.quick ? "quick" : "");
+  hash.add(request.region ? "region" : "");
   return hash.hex();
 }
 
@@ -218,11 +244,13 @@ fs::path RequestedExperiments::folder_of(const Experiment& experiment) const {
 RequestedExperiments requested_experiments(const ExperimentRequest& request) {
   RequestedExperiments requested;
   if (fs::is_directory(request.experiment)) {
+    if (request.region) throw Error(ErrorKind::usage, "--region", "is of one experiment", "name one");
     requested.file = request.experiment;
     requested.groups = groups_in(requested.file, request);
   } else {
     requested.file = find_experiment(request.experiment, experiments_folder());
-    requested.groups = groups_of(experiment_of(requested.file, request), request);
+    const Experiment named = experiment_of(requested.file, request);
+    requested.groups = request.region ? std::vector{region_group(named, request)} : groups_of(named, request);
   }
   requested.fingerprint = fingerprint_of(requested, request);
   return requested;

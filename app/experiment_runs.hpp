@@ -21,13 +21,15 @@ struct ExperimentRequest {
   std::string experiment;  ///< a name, or a path; a folder means all experiments in it
   std::string only;        ///< a regular expression that the names of members must match; empty: all are run
   bool quick = false;
+  bool region = false;                          ///< at every setting of its [region] too
   std::function<void(RunSettings& run)> apply;  ///< the command line's settings over an experiment's own
 };
 
-/// Experiments that are judged together: the members of a matrix that are run, or one alone.
+/// Experiments that are judged together: the members of a matrix that are run, the settings of a region, or one alone.
 struct ExperimentGroup {
   std::vector<Experiment> experiments;
-  std::optional<Experiment> matrix = {};   ///< none: one alone
+  std::optional<Experiment> matrix = {};   ///< of which they are members
+  std::optional<Experiment> region = {};   ///< of which they are the stated setting and all others
   std::vector<std::string> left_out = {};  ///< what the matrix says of members that --only leaves out: it is not judged
 
   [[nodiscard]] const Experiment& judged() const { return matrix ? *matrix : experiments.front(); }
@@ -46,7 +48,7 @@ struct RequestedExperiments {
 };
 
 /// Errors (usage): no such experiment; of its files; members that have members; --only is not a regular expression, or
-/// leaves nothing.
+/// leaves nothing; a region of an experiment that has none.
 [[nodiscard]] RequestedExperiments requested_experiments(const ExperimentRequest& request);
 
 /// The folder below a run's output folder in which its finished work is stored.

@@ -78,6 +78,7 @@ RequestedExperiments requested_by(const Part& first, const RunArguments& argumen
   RequestedExperiments requested = requested_experiments({.experiment = first.file.experiment,
                                                           .only = first.file.only,
                                                           .quick = first.file.quick,
+                                                          .region = first.file.kind == PartKind::region,
                                                           .apply = [&](RunSettings& run) {
                                                             arguments.apply(run);
                                                             run.timing.processes = first.file.processes;

@@ -15,7 +15,7 @@ namespace footprint {
 namespace {
 
 constexpr const char* schema = "footprint-part/1";
-constexpr auto part_kinds = own_words<PartKind::experiment, PartKind::animation>;
+constexpr auto part_kinds = own_words<PartKind::experiment, PartKind::animation, PartKind::region>;
 constexpr int most_shards = 100000;
 constexpr int most_processes = 64, most_tile = 1 << 16;  // as the options of a run have them
 

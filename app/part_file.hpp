@@ -20,7 +20,7 @@ struct Shard {
 [[nodiscard]] std::pair<std::size_t, std::size_t> range_of(const Shard& shard, std::size_t total);
 
 /// The kinds of runs that have parts.
-enum class PartKind { experiment, animation };
+enum class PartKind { experiment, animation, region };
 
 /// The content of one part.
 struct PartFile {

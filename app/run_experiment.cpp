@@ -28,6 +28,7 @@ constexpr const char* run_examples =
   footprint run engine_constants --only ggx -o out    its members whose names match
   footprint run --all -o results                      every experiment; an interrupted run resumes
   footprint run cells --shard 1/4 -o parts/1          one of four parts, for `footprint merge`
+  footprint run tan2005_fig7 --region -o out          in which settings its claims hold
   footprint run mine.toml -o out)";
 
 constexpr const char* check_examples =
@@ -38,6 +39,7 @@ Examples:
   footprint check quick -o out                 every method, in seconds
   footprint check hard_cases -o out            numerical stress tests (docs/results/stability.md)
   footprint check experiments/tan2005_fig4.toml -o out
+  footprint check tan2005_fig7 --region -o out        also in which other settings its claims hold
   footprint check quick -o out --junit out/junit.xml --github
   footprint check quick -o out --baseline quick.json --update-baseline    first run; later without --update-baseline)";
 
@@ -59,6 +61,8 @@ struct ExperimentArguments : RunArguments {
         "work, from which an interrupted run resumes");
     add_value(command, "--only", only, "REGEX",
               "Run only members or experiments whose names match this regular expression");
+    command.add_flag("--region", region,
+                     "Also judge the claims at every setting of the experiment's [region]; a map of where they hold");
     command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
     command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
     command.add_option(timing_member_option, timing_member)->group("");
@@ -84,6 +88,7 @@ struct ExperimentArguments : RunArguments {
   bool all = false;      // in the place of one experiment
   bool quick = false;
   bool fresh = false;
+  bool region = false;        // at every setting that the paper leaves open
   bool wide = false;          // hard_cases: every storage in every case, and those that take long
   std::string timing_file;    // not empty: this is a process that only takes times
   std::string timing_member;  // and of this experiment alone
@@ -95,6 +100,7 @@ RequestedExperiments requested(const ExperimentArguments& arguments) {
   return requested_experiments({.experiment = arguments.all ? experiments_folder().string() : arguments.experiment,
                                 .only = arguments.only,
                                 .quick = arguments.quick,
+                                .region = arguments.region,
                                 .apply = [&](RunSettings& run) { arguments.apply(run); }});
 }
 
@@ -126,7 +132,8 @@ void run_shard(const ExperimentArguments& arguments) {
   const FinishedWork finished = finished_work_of(run, arguments.output, arguments.fresh);
   make_part(shard, arguments.output, finished, [&]() -> PartFile {
     run_part(experiments, shard, arguments.output, finished, arguments.quiet);
-    return {.experiment = std::filesystem::absolute(experiments.file).lexically_normal().string(),
+    return {.kind = arguments.region ? PartKind::region : PartKind::experiment,
+            .experiment = std::filesystem::absolute(experiments.file).lexically_normal().string(),
             .fingerprint = experiments.fingerprint,
             .only = arguments.only,
             .quick = arguments.quick,

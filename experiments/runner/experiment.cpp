@@ -8,6 +8,9 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/runner/axes.hpp"
+#include "experiments/runner/matrix.hpp"
+#include "experiments/runner/region.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
@@ -27,8 +30,8 @@ constexpr NumberRange any_number{-1e300, 1e300};
 constexpr double most_frames = 10000;
 
 // The tables of an experiment without members, apart from [experiment].
-const std::vector<std::string> further_tables{"zoom",     "camera",    "reference", "matrix",    "ndf",
-                                              "quantity", "published", "claim",     "threshold", "figure"};
+const std::vector<std::string> further_tables{"zoom",      "camera", "reference", "matrix", "ndf",   "quantity",
+                                              "published", "claim",  "threshold", "figure", "region"};
 // The tables of presets. A file may take single keys of joined_tables; it takes the others whole.
 const std::vector<std::string> preset_tables{"experiment", "zoom", "camera", "reference", "matrix"};
 const std::vector<std::string> joined_tables{"experiment", "reference", "matrix"};
@@ -412,6 +415,7 @@ Experiment read_experiment(const fs::path& file) {
   read_quantities(root, experiment);
   if (const auto published = root.table("published", {"file", "figures"})) read_published(*published, experiment);
   read_claims(root, experiment);
+  read_region(root, experiment);
   read_thresholds(root, experiment);
   if (const auto figure = root.table("figure", {"crop", "inset", "row"})) read_figure(*figure, experiment);
   return experiment;

@@ -1,5 +1,4 @@
-// An experiment as a plain value: what its TOML says (docs/reference/experiments.md); and its [matrix]: values that
-// settings take in turn, and the members that come of them.
+// An experiment as a plain value: what its TOML says (docs/reference/experiments.md).
 #pragma once
 
 #include <array>
@@ -15,8 +14,6 @@
 #include "renderer/ndf/footprint_texels.hpp"
 
 namespace footprint {
-
-class TomlTable;
 
 /// A statement, of a paper or our own, as an inequality over the records.
 struct Claim {
@@ -81,13 +78,14 @@ struct Experiment {
   std::optional<std::filesystem::path> presets;  ///< the file that it takes what it lacks from
   std::string title, description;
   std::vector<std::filesystem::path>
-      members;              ///< files of the experiments that it is made of; with any, all below is unset
-  std::vector<Axis> axes;   ///< of a matrix: what its members (members_of_matrix) vary; `run` is the first one's
-  Coordinates coordinates;  ///< of a member of a matrix: its value on each axis
-  std::string whole;        ///< of a member of a matrix: the matrix' name
-  RunSettings run;          ///< what is compared
-  std::string scene_place;  ///< FILE:LINE of what names its scene, or scenes
-  bool quick = false;       ///< `run` is cut short: no measurement
+      members;               ///< files of the experiments that it is made of; with any, all below is unset
+  std::vector<Axis> axes;    ///< of a matrix: what its members (members_of_matrix) vary; `run` is the first one's
+  std::vector<Axis> region;  ///< what its claims leave unsaid; a key that is no setting is a method as written
+  Coordinates coordinates;   ///< of a member of a matrix, or of a setting of a region: its value on each axis
+  std::string whole;         ///< of such a member or setting: the name of the experiment that it is of
+  RunSettings run;           ///< what is compared
+  std::string scene_place;   ///< FILE:LINE of what names its scene, or scenes
+  bool quick = false;        ///< `run` is cut short: no measurement
   std::vector<PublishedValue> published;
   std::vector<Claim> claims;
   std::vector<Threshold> thresholds;
@@ -118,28 +116,6 @@ void check_against_scenes(const Experiment& experiment);
 
 /// The distances of an experiment: those that it gives, or its scene's. Errors (usage): of its scene.
 [[nodiscard]] std::vector<double> distances_of(const Experiment& experiment);
-
-/// The keys of [matrix] that a setting of [`table`] has too; without a table all.
-[[nodiscard]] std::vector<std::string> axis_keys(std::string_view table = {});
-
-/// The keys that a file's [matrix] has. Errors (usage) name file and line: a key that it does not take, or none.
-[[nodiscard]] std::vector<std::string> matrix_keys_of(const TomlTable& root);
-
-/// Reads [matrix], where a file has it, into an experiment that has the file's other settings: its axes, the first
-/// member's settings, and methods times options. Errors (usage) name file, line and key: values that the setting does
-/// not take, one that is there twice, too many members or methods.
-void read_matrix(const TomlTable& root, Experiment& experiment);
-
-/// The members, the last axis first to change; each with a name of its own that a folder may have. What is said of all
-/// of them together, claims and thresholds, is left to the whole.
-[[nodiscard]] std::vector<Experiment> members_of_matrix(const Experiment& whole);
-
-/// Whether a measure includes the member at these coordinates.
-[[nodiscard]] bool selects(const Measure& measure, const Coordinates& member);
-
-/// Takes out of `whole` the claims, thresholds and published figures that are over any of the members in `missing`, and
-/// gives their names.
-std::vector<std::string> leave_out(Experiment& whole, const std::vector<Coordinates>& missing);
 
 /// The scene that a file means by `name`: the one beside it, else of the library.
 [[nodiscard]] std::string scene_of_file(const std::filesystem::path& file, const std::string& name);

@@ -254,11 +254,6 @@ void collect(const Expression& node, std::vector<Measure>& measures) {
   for (const Expression& part : node.parts) collect(part, measures);
 }
 
-void fill_in(Expression& node, const std::string& method) {
-  if (node.kind == Kind::call && node.measure.method == "*") node.measure.method = method;
-  for (Expression& part : node.parts) fill_in(part, method);
-}
-
 class Evaluator {
  public:
   explicit Evaluator(std::span<const Results> runs) : runs_(runs) {}
@@ -322,9 +317,16 @@ std::vector<Measure> Expression::measures() const {
   return found;
 }
 
+void Expression::for_each_measure(const std::function<void(Measure&)>& change) {
+  if (kind == Kind::call) change(measure);
+  for (Expression& part : parts) part.for_each_measure(change);
+}
+
 Expression Expression::with_method(const std::string& method) const {
   Expression filled = *this;
-  fill_in(filled, method);
+  filled.for_each_measure([&](Measure& called) {
+    if (called.method == "*") called.method = method;
+  });
   return filled;
 }
 
@@ -354,6 +356,11 @@ bool Inequality::is_true(double left_value, double right_value) const {
   if (relation == "<=") return left_value <= right_value;
   if (relation == ">") return left_value > right_value;
   return left_value >= right_value;
+}
+
+void Inequality::for_each_measure(const std::function<void(Measure&)>& change) {
+  left.for_each_measure(change);
+  right.for_each_measure(change);
 }
 
 }  // namespace footprint

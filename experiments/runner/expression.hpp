@@ -101,6 +101,8 @@ struct Expression {
 
   /// The calls from left to right.
   [[nodiscard]] std::vector<Measure> measures() const;
+  /// Calls `change` with every call's measure, from left to right.
+  void for_each_measure(const std::function<void(Measure&)>& change);
   /// The same expression with `method` wherever the method is `*`.
   [[nodiscard]] Expression with_method(const std::string& method) const;
   /// As it would be written, in one style.
@@ -120,6 +122,8 @@ struct Inequality {
   Inequality(const std::string& text, const std::string& place);
 
   [[nodiscard]] bool is_true(double left_value, double right_value) const;
+  /// Calls `change` with every call's measure of both sides.
+  void for_each_measure(const std::function<void(Measure&)>& change);
 };
 
 /// Why times of these machines are not comparable; empty for one machine. Across machines only `ratio` is comparable,

@@ -9,6 +9,7 @@
 #include <ranges>
 
 #include "experiments/runner/experiment.hpp"
+#include "experiments/runner/matrix.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"

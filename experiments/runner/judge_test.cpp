@@ -1,4 +1,5 @@
 // Thresholds within the reference's noise: refused while the run goes on, as soon as nothing that is to come can help.
+#include "experiments/runner/matrix.hpp"
 #include "experiments/runner/run_experiment.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Reads axes through the settings that they vary, and multiplies them out.
-#include "experiments/runner/experiment.hpp"
+// Makes members of axes, and methods of options.
+#include "experiments/runner/matrix.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <array>
 #include <utility>
 
-#include "experiments/settings/setting.hpp"
+#include "experiments/runner/axes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/core/toml_table.hpp"
@@ -18,60 +18,6 @@ namespace footprint {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Each member has a folder and a comparison, which stores all its methods at once.
-constexpr std::size_t most_members = 1000, most_methods = 200;
-
-constexpr std::array<std::string_view, 4> varied_keys{"scene", "size", "footprint", "seed"};  // keys of settings
-
-const Setting& setting_of(std::string_view key) {
-  return *std::ranges::find_if(run_settings(), [&](const Setting& setting) { return setting.key.name == key; });
-}
-
-void set_value(Experiment& experiment, const std::string& key, const std::string& value) {
-  setting_of(key).type.read_text(experiment.run, key, value);
-  if (key == "scene") experiment.run.scene = scene_of_file(experiment.file, value);
-}
-
-// As the setting writes it, so that one value has one name.
-std::string written_by_setting(const std::string& key, const std::string& value) {
-  RunSettings run;
-  const Setting& setting = setting_of(key);
-  setting.type.read_text(run, "", value);
-  return setting.type.text(run);
-}
-
-Axis read_axis(const TomlTable& matrix, const std::string& key) {
-  Axis axis{.key = key};
-  const std::vector<std::string> values = matrix.words_or_numbers(key).value();
-  for (const std::string& written : values) {
-    const std::string value = at_key(matrix, key, [&] { return written_by_setting(key, written); });
-    if (value.empty()) throw matrix.error_at(key, "has an empty value", "fill it in, or leave it out");
-    if (std::ranges::find(axis.values, value) != axis.values.end())
-      throw matrix.error_at(key, fmt::format("has `{:.80}` twice", value), "give each once");
-    axis.values.push_back(value);
-  }
-  return axis;
-}
-
-// Every method with every combination of its options' values, in the place of the method.
-std::vector<std::string> times_options(const TomlTable& table, const std::string& method) {
-  std::vector<std::string> texts{method};
-  const std::vector<std::string> options = table.keys_of(method);
-  if (options.empty()) throw table.error_at(method, "varies nothing", "write METHOD = { option = [1, 2] }");
-  const TomlTable axes = *table.table(method, options);
-  for (const std::string& option : options) {
-    const std::vector<std::string> values = axes.words_or_numbers(option).value();
-    std::vector<std::string> longer;
-    for (const std::string& text : texts) {
-      for (const std::string& value : values) longer.push_back(fmt::format("{}:{}={}", text, option, value));
-    }
-    texts = std::move(longer);
-    if (texts.size() > most_methods)
-      throw table.error_at(method, fmt::format("makes more than {} methods", most_methods), "leave values out");
-  }
-  return texts;
-}
 
 void read_options(const TomlTable& matrix, const std::filesystem::path& folder, std::vector<MethodSpec>& methods) {
   const std::vector<std::string> varied = matrix.keys_of("options");
@@ -86,9 +32,7 @@ void read_options(const TomlTable& matrix, const std::filesystem::path& folder, 
     variants[index] = at_key(table, method, [&] {
       if (variants[index].front() != texts[index])
         throw Error(ErrorKind::usage, "", "is varied twice", "give its options once");
-      std::vector<std::string> made = times_options(table, method);
-      for (std::string& text : made) text.replace(0, method.size(), texts[index]);
-      return made;
+      return times_options(table, method, texts[index]);
     });
   }
   std::vector<MethodSpec> all;
@@ -105,44 +49,6 @@ void read_options(const TomlTable& matrix, const std::filesystem::path& folder, 
   methods = std::move(all);
 }
 
-// The name of a value in a folder's name; of a path only its distinctive part.
-std::string value_name(const std::string& key, const std::string& value) {
-  if (key == "seed") return key + value;
-  if (key != "scene") return value;
-  const fs::path path(value);
-  if (path.filename() == "scene.toml") return path.parent_path().filename().string();
-  return path.has_extension() ? path.stem().string() : path.filename().string();
-}
-
-// The coordinates of every member.
-std::vector<Coordinates> multiplied_out(const std::vector<Axis>& axes) {
-  std::vector<Coordinates> all{{}};
-  for (const Axis& axis : axes) {
-    std::vector<Coordinates> longer;
-    for (const Coordinates& start : all) {
-      for (const std::string& value : axis.values) {
-        longer.push_back(start);
-        longer.back().emplace_back(axis.key, value);
-      }
-    }
-    all = std::move(longer);
-  }
-  return all;
-}
-
-std::vector<std::string> member_names(const std::vector<Coordinates>& places) {
-  std::vector<std::string> names{"kept", "images"};  // other folders of the output
-  const std::size_t others = names.size();
-  for (const Coordinates& place : places) {
-    std::string name;
-    for (const auto& [key, value] : place) name += (name.empty() ? "" : "-") + value_name(key, value);
-    names.push_back(name);
-  }
-  names = distinct_stems(names);
-  names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(others));
-  return names;
-}
-
 std::string title_of(const Experiment& whole, const Coordinates& place) {
   std::string values;
   for (const auto& [key, value] : place) values += fmt::format("{}{} {}", values.empty() ? "" : ", ", key, value);
@@ -157,14 +63,6 @@ bool is_over(const Expression& expression, const std::vector<Coordinates>& membe
 }
 
 }  // namespace
-
-std::vector<std::string> axis_keys(std::string_view table) {
-  std::vector<std::string> keys;
-  for (const std::string_view key : varied_keys) {
-    if (table.empty() || table == setting_of(key).key.table) keys.emplace_back(key);
-  }
-  return keys;
-}
 
 std::vector<std::string> matrix_keys_of(const TomlTable& root) {
   std::vector<std::string> known = axis_keys();
@@ -196,7 +94,7 @@ void read_matrix(const TomlTable& root, Experiment& experiment) {
 
 std::vector<Experiment> members_of_matrix(const Experiment& whole) {
   const std::vector<Coordinates> places = multiplied_out(whole.axes);
-  const std::vector<std::string> names = member_names(places);
+  const std::vector<std::string> names = names_of_places(places, {"kept", "images"});  // other folders of the output
   Experiment first = whole;
   first.axes.clear();
   first.claims.clear();

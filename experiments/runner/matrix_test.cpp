@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 
+#include "experiments/runner/matrix.hpp"
 #include "experiments/runner/run_experiment.hpp"
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"

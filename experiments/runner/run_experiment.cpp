@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "experiments/runner/matrix.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/ndf_inspection.hpp"

@@ -14,6 +14,7 @@
 
 #include "renderer/core/files.hpp"
 #include "results/report/record_fields.hpp"
+#include "results/report/region_report.hpp"
 #include "results/report/report.hpp"
 #include "tests/report/schema_archive.hpp"
 #include "tests/report/schema_structure.hpp"
@@ -24,12 +25,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Each schema by its file, with the structure that the fields give.
-std::array<std::pair<std::string_view, Json>, 4> structures() {
+std::array<std::pair<std::string_view, Json>, 5> structures() {
   const MatrixResults matrix{.report = {}, .left_out = {}, .members = {MatrixMember{}}};
   return {{{"results.schema.json", SchemaArchive::schema_of(Results{})},
            {"matrix.schema.json", SchemaArchive::schema_of(matrix)},
            {"ndf.schema.json", SchemaArchive::schema_of(NdfResults{})},
-           {"recommend.schema.json", SchemaArchive::schema_of(Recommendation{})}}};
+           {"recommend.schema.json", SchemaArchive::schema_of(Recommendation{})},
+           {"region.schema.json", SchemaArchive::schema_of(RegionReport{})}}};
 }
 
 // Returns the number of differences, after printing them.

@@ -1,0 +1,64 @@
+// The region of the settings that a paper leaves open in which its claims hold: `footprint check EXPERIMENT --region`.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "renderer/core/run_folder.hpp"
+#include "results/report/records.hpp"
+
+namespace footprint {
+
+/// The admissible values of one setting, as the experiment's file writes them.
+struct RegionAxis {
+  std::string key;  ///< the setting: "distance", "size", or a method of which options vary
+  std::vector<std::string> values = {};
+};
+
+/// One point of the grid.
+struct RegionSetting {
+  std::string name;  ///< its folder
+  Coordinates values;
+};
+
+/// What became of one claim over the grid.
+struct RegionClaim {
+  std::string name, text, inequality = {};
+  ClaimSource source = ClaimSource::ours;
+  Verdict stated = Verdict::undecided;  ///< at the experiment's own setting
+  std::vector<Verdict> outcomes = {};   ///< one per setting of the grid, in their order
+
+  /// How many settings have an outcome.
+  [[nodiscard]] std::size_t count(Verdict verdict) const;
+};
+
+/// The content of region.json.
+struct RegionReport {
+  std::string schema = "footprint-region/1";
+  ToolInfo tool = {};
+  BackendInfo backend = {};
+  std::string experiment = {}, title = {}, file = {};
+  bool quick = false;                        ///< smaller than the file says: no measurement
+  std::vector<RegionAxis> axes = {};         ///< the last one changes first
+  std::vector<RegionSetting> settings = {};  ///< all combinations
+  std::vector<RegionClaim> claims = {};
+};
+
+/// "Holds in 9 of 40 settings, all of them with distance 0.5 or 1; at the stated setting it does not hold." A value
+/// that all settings with the outcome have is named only where the axis has others.
+[[nodiscard]] std::string region_sentence(const RegionReport& report, const RegionClaim& claim);
+
+/// The document of docs/region.schema.json.
+[[nodiscard]] std::string region_json(const RegionReport& report);
+
+/// A section per claim in Markdown: the sentence, and a map of the grid with the last axis to the right.
+[[nodiscard]] std::string region_table(const RegionReport& report);
+
+/// The same as a page.
+[[nodiscard]] std::string region_page(const RegionReport& report);
+
+/// Writes region.json, table.md and index.html. Errors (machine): region.json cannot be written.
+void write_region(const RegionReport& report, const RunFolder& folder);
+
+}  // namespace footprint

@@ -36,7 +36,7 @@ struct BakeArguments : RunArguments {
     auto* copy =
         command.add_flag("--gltf", gltf, "Also write a copy of the model, with the roughness maps that engines import");
     command.add_option("--gltf-level", gltf_level, "Mip level of the copy's maps; 0 is the finest")
-        ->check(CLI::Range(0, coarsest_level))
+        ->check(within(0, coarsest_level))
         ->needs(copy)
         ->capture_default_str();
   }

@@ -23,7 +23,7 @@ struct EditArguments : RunArguments {
         ->expected(1)
         ->take_all();
     command.add_option("--frames", frames, "Number of edits, at equal steps of the parameters")
-        ->check(CLI::Range(1, 10000))
+        ->check(within(1, 10000))
         ->capture_default_str();
     add_output_folder(command, output, "Folder for edit.json, edit.csv, table.md, images/");
   }

@@ -33,9 +33,9 @@ struct NdfArguments : RunArguments {
     command
         .add_option("--resolution", resolution,
                     "Rings of directions on the hemisphere; default: as the narrowest lobe needs")
-        ->check(CLI::Range(smallest_resolution, largest_resolution));
+        ->check(within(smallest_resolution, largest_resolution));
     command.add_option("--picture-size", picture_size, "Side of the images in pixels")
-        ->check(CLI::Range(16, 4096))
+        ->check(within(16, 4096))
         ->capture_default_str();
     add_output_folder(command, output, "Folder for index.html, ndf.json, ndf.png, images/")->required();
   }

@@ -28,7 +28,7 @@ struct SurfaceArguments {
     add_value(command, "name", surface, "SURFACE", "Name of the surface")->required();
     add_value(command, "-o,--output", output, "FILE", "The map, .exr or .png")->required();
     command.add_option("--resolution", resolution, "Texels per side; default: the surface's own")
-        ->check(CLI::Range(1, largest_surface_resolution));
+        ->check(within(1, largest_surface_resolution));
     command.add_option("--seed", seed, "Random seed: same seed, same bytes")->capture_default_str();
     add_value(command, "--parameter", parameters, "NAME=VALUE", "A parameter of the surface; may be repeated")
         ->allow_extra_args(false);

@@ -14,25 +14,32 @@ namespace {
 constexpr int most_unrolled_lights = 4;  // of a kind; further ones cost what the last one adds
 
 // The constant numbers of rounds of a frame's programs, and how often each counts: one with a single round per loop,
-// and one per kind of loop with one round more.
+// and one per kind of loop with one round more. Rounds find the lobes that a loop over lobes reads, so a further lobe
+// is counted where there is a further round: a compiler may drop all that depends on a lobe that nothing writes.
 std::vector<std::pair<FixedTrips, double>> weighed_trips(const PixelTrips& trips, const GpuScene::LightCounts& lights) {
   const auto unrolled = [](std::size_t count) { return std::clamp(static_cast<int>(count), 1, most_unrolled_lights); };
   FixedTrips base;
   std::ranges::transform(lights.of, base.lights.begin(), unrolled);
   std::vector<std::pair<FixedTrips, double>> programs{{base, 1.0}};
-  const auto add = [&](auto rounds_of, double further) {
-    if (further <= 0) return;
-    FixedTrips longer = base;
-    ++rounds_of(longer);
-    programs.front().second -= further;
+  // `further` times what one round more of a loop adds to the program `from`. Returns the longer program.
+  const auto add = [&](std::size_t from, int FixedTrips::*loop, double further) {
+    if (further <= 0) return from;
+    FixedTrips longer = programs[from].first;
+    ++(longer.*loop);
+    programs[from].second -= further;
     programs.emplace_back(longer, further);
+    return programs.size() - 1;
   };
-  add([](FixedTrips& t) -> int& { return t.probes; }, trips.probes - 1);
-  add([](FixedTrips& t) -> int& { return t.lobes; }, trips.lobes - 1);
-  add([](FixedTrips& t) -> int& { return t.rounds; }, trips.rounds - 1);
-  for (std::size_t i = 0; i < light_types.size(); ++i)
-    add([i](FixedTrips& t) -> int& { return t.lights.at(i); },
-        static_cast<double>(lights.of.at(i)) - base.lights.at(i));
+  add(0, &FixedTrips::probes, trips.probes - 1);
+  const std::size_t rounds = add(0, &FixedTrips::rounds, trips.rounds - 1);
+  add(rounds, &FixedTrips::lobes, trips.lobes - 1);
+  for (std::size_t i = 0; i < light_types.size(); ++i) {
+    const double further = static_cast<double>(lights.of.at(i)) - base.lights.at(i);
+    if (further <= 0) continue;
+    programs.front().second -= further;
+    programs.emplace_back(base, further);
+    ++programs.back().first.lights.at(i);
+  }
   return programs;
 }
 
@@ -214,6 +221,7 @@ GpuCost GpuCosts::cost_of(const CompilingChip& chip, const CostedFrame& frame) {
   for (const auto& [program, weight] : frame.programs)
     works.push_back({weight, shader_work(chip.compiled.at(program).stage->code, chip.between_descriptors)});
   cost = estimate(*chip.chip, works, frame.work.lookups, frame.textures, frame_pixel_bytes, frame.work.finest_areas);
+  if (cost.failure) return cost;
   set_statistics(cost, *chip.compiled.at(frame.programs.front().first).stage);
   if (frame.work.pixels > 0) cost.passes_ns = passes_ns(chip, frame) / frame.work.pixels;
   cost.cost_ns += cost.passes_ns;

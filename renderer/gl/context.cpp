@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -181,6 +184,26 @@ void require_address_space() {
               "raise the limit, or lift it with `ulimit -v unlimited`");
 }
 
+// Whether a folder is there or could be made: the nearest one that exists can be written to.
+bool can_be_made(std::filesystem::path folder) {
+  std::error_code unknown;
+  while (!folder.empty() && !std::filesystem::exists(folder, unknown) && folder != folder.parent_path())
+    folder = folder.parent_path();
+  return access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+// Switches Mesa's cache of shaders off where its folder cannot be made: Mesa 25.0 prints a line on standard error then.
+void leave_out_unusable_shader_cache() {
+  if (std::getenv("MESA_SHADER_CACHE_DISABLE") != nullptr) return;
+  for (const auto& [variable, below] :
+       {std::pair{"MESA_SHADER_CACHE_DIR", ""}, {"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}}) {
+    const char* const folder = std::getenv(variable);
+    if (folder == nullptr || *folder == '\0') continue;
+    if (!can_be_made(std::filesystem::path(folder) / below)) setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    return;
+  }
+}
+
 }  // namespace
 
 struct Context::Impl {
@@ -254,6 +277,7 @@ Context::Context(const ContextRequest& request) {
                 "choose `--backend egl-device`");
   }
   require_address_space();
+  leave_out_unusable_shader_cache();
   const Current before = current;
   try {
     impl_ = request.backend ? std::make_unique<Impl>(*request.backend, request.device) : Impl::open_any();

@@ -286,6 +286,10 @@ GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double
   GpuCost estimate;
   estimate.gpu = chip.name;
   const Instructions work = frame_work(works, lookups, estimate.loop_rounds);
+  if (work.full < 0 || work.texture_reads() < 0) {
+    estimate.failure = "the compiler drops work from a program with further rounds; report the version of Mesa";
+    return estimate;
+  }
   estimate.alu_clocks = alu_clocks(*chip.generation, work) / pixels_of_a_wave;
   estimate.arithmetic_ns = estimate.alu_clocks / (chip.compute_units * chip.generation->simds * chip.ghz);
   for (const auto& [binding, reads] : work.textures) {

@@ -114,6 +114,7 @@ inline constexpr double frame_pixel_bytes = 8;
 /// program.
 /// textures: by binding.
 /// written_bytes: of a pixel, in all targets.
+/// Fails where the programs' difference is negative: the compiler has dropped work that a further round has.
 /// finest_areas: of each pixel on maps with `finest_texels`; the whole map has 1. Empty: their texels fit the pixels.
 [[nodiscard]] GpuCost estimate(const Chip& chip, const std::vector<WeighedWork>& works, double lookups,
                                const std::map<int, ReadTexture>& textures, double written_bytes = frame_pixel_bytes,

@@ -179,6 +179,14 @@ TEST(Estimate, IsTheLargestBound) {
   EXPECT_EQ(reads.cost_ns, std::max(reads.texture_ns, reads.bandwidth_ns));
 }
 
+// A further round that takes work away would make the sum negative.
+TEST(Estimate, RefusesProgramsThatDoNotAddUp) {
+  EXPECT_FALSE(estimate(deck(), {{-5, work_with(850, 4)}, {6, work_with(1030, 5)}}, 10, {}).failure);
+  const GpuCost dropped = estimate(deck(), {{-5, work_with(850, 4)}, {6, work_with(180, 0)}}, 10, {});
+  EXPECT_THAT(dropped.failure.value(), HasSubstr("drops work"));
+  EXPECT_EQ(dropped.cost_ns, 0);
+}
+
 // A pass that averages four texels of 16 bytes into one: each is read once. A copy reads and writes.
 TEST(Estimate, OfAPassCountsWhatItWrites) {
   ShaderWork work;

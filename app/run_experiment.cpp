@@ -28,7 +28,7 @@ constexpr const char* run_examples =
   footprint run engine_constants --only ggx -o out    its members whose names match
   footprint run --all -o results                      every experiment; an interrupted run resumes
   footprint run cells --shard 1/4 -o parts/1          one of four parts, for `footprint merge`
-  footprint run tan2005_fig7 --region -o out          in which settings its claims hold
+  footprint run tan2005_fig7 --region -o out          in which settings its claims are true
   footprint run mine.toml -o out)";
 
 constexpr const char* check_examples =
@@ -39,7 +39,7 @@ Examples:
   footprint check quick -o out                 every method, in seconds
   footprint check hard_cases -o out            numerical stress tests (docs/results/stability.md)
   footprint check experiments/tan2005_fig4.toml -o out
-  footprint check tan2005_fig7 --region -o out        also in which other settings its claims hold
+  footprint check tan2005_fig7 --region -o out        also in which other settings its claims are true
   footprint check quick -o out --junit out/junit.xml --github
   footprint check quick -o out --baseline quick.json --update-baseline    first run; later without --update-baseline)";
 
@@ -61,8 +61,9 @@ struct ExperimentArguments : RunArguments {
         "work, from which an interrupted run resumes");
     add_value(command, "--only", only, "REGEX",
               "Run only members or experiments whose names match this regular expression");
-    command.add_flag("--region", region,
-                     "Also judge the claims at every setting of the experiment's [region]; a map of where they hold");
+    command.add_flag(
+        "--region", region,
+        "Also judge the claims at every setting of the experiment's [region]; a map of where they are true");
     command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
     command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
     command.add_option(timing_member_option, timing_member)->group("");

@@ -14,7 +14,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::string_view legend = "● holds, ○ does not, – undecided";
+constexpr std::string_view legend = "● true, ○ false, – undecided";
 
 std::string_view dot_of(Verdict verdict) {
   if (verdict == Verdict::undecided) return "–";
@@ -52,7 +52,7 @@ std::string restriction(Verdict verdict, const RegionReport& report, const Regio
 
 std::string stated_words(Verdict stated) {
   if (stated == Verdict::undecided) return "at the stated setting it is undecided";
-  return fmt::format("at the stated setting it {}", stated == Verdict::reproduced ? "holds" : "does not hold");
+  return fmt::format("at the stated setting it is {}", stated == Verdict::reproduced ? "true" : "false");
 }
 
 // One row per combination of all axes but the last, one column per value of the last.
@@ -71,7 +71,9 @@ Table map_of(const RegionReport& report, const RegionClaim& claim) {
   return table;
 }
 
-std::string heading_of(const RegionReport& report) { return fmt::format("Where the claims of {} hold", report.title); }
+std::string heading_of(const RegionReport& report) {
+  return fmt::format("Where the claims of {} are true", report.title);
+}
 
 std::string lede_of(const RegionReport& report) {
   return fmt::format("{} settings of what the paper leaves open. {}.{}", report.settings.size(), legend,
@@ -86,7 +88,7 @@ std::size_t RegionClaim::count(Verdict verdict) const {
 
 std::string region_sentence(const RegionReport& report, const RegionClaim& claim) {
   const std::size_t held = claim.count(Verdict::reproduced), undecided = claim.count(Verdict::undecided);
-  std::string text = fmt::format("Holds in {} of {} settings", held, claim.outcomes.size());
+  std::string text = fmt::format("True in {} of {} settings", held, claim.outcomes.size());
   if (held > 0) text += restriction(Verdict::reproduced, report, claim);
   if (undecided > 0) text += fmt::format(", undecided in {}", undecided);
   return fmt::format("{}; {}.", text, stated_words(claim.stated));

@@ -1,4 +1,5 @@
-// The region of the settings that a paper leaves open in which its claims hold: `footprint check EXPERIMENT --region`.
+// The region of the settings that a paper leaves open in which its claims are true: `footprint check EXPERIMENT
+// --region`.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +46,7 @@ struct RegionReport {
   std::vector<RegionClaim> claims = {};
 };
 
-/// "Holds in 9 of 40 settings, all of them with distance 0.5 or 1; at the stated setting it does not hold." A value
+/// "True in 9 of 40 settings, all of them with distance 0.5 or 1; at the stated setting it is false." A value
 /// that all settings with the outcome have is named only where the axis has others.
 [[nodiscard]] std::string region_sentence(const RegionReport& report, const RegionClaim& claim);
 

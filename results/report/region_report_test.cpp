@@ -32,15 +32,14 @@ std::string sentence(std::vector<Verdict> outcomes, Verdict stated = no) {
 
 TEST(Region, SentencesNameWhatRestrictsAClaim) {
   EXPECT_EQ(sentence({yes, yes, yes, no, no, no}),
-            "Holds in 3 of 6 settings, all of them with distance 1 or 2; at the stated setting it does not hold.");
-  EXPECT_EQ(
-      sentence({no, yes, no, yes, no, no}),
-      "Holds in 2 of 6 settings, all of them with distance 1 or 2 and lean:storage=fp16; at the stated setting it "
-      "does not hold.");
-  EXPECT_EQ(sentence({yes, no, no, yes, yes, no}, yes), "Holds in 3 of 6 settings; at the stated setting it holds.");
-  EXPECT_EQ(sentence({no, no, no, no, no, no}, yes), "Holds in 0 of 6 settings; at the stated setting it holds.");
+            "True in 3 of 6 settings, all of them with distance 1 or 2; at the stated setting it is false.");
+  EXPECT_EQ(sentence({no, yes, no, yes, no, no}),
+            "True in 2 of 6 settings, all of them with distance 1 or 2 and lean:storage=fp16; at the stated setting it is "
+            "false.");
+  EXPECT_EQ(sentence({yes, no, no, yes, yes, no}, yes), "True in 3 of 6 settings; at the stated setting it is true.");
+  EXPECT_EQ(sentence({no, no, no, no, no, no}, yes), "True in 0 of 6 settings; at the stated setting it is true.");
   EXPECT_EQ(sentence({yes, open, yes, open, yes, yes}, open),
-            "Holds in 4 of 6 settings, undecided in 2; at the stated setting it is undecided.");
+            "True in 4 of 6 settings, undecided in 2; at the stated setting it is undecided.");
 }
 
 TEST(Region, MapsHaveTheLastAxisToTheRight) {
@@ -53,8 +52,8 @@ TEST(Region, MapsHaveTheLastAxisToTheRight) {
 
 TEST(Region, PagesHaveThemAndEscapeTheirText) {
   const std::string page = region_page(grid({yes, no, no, open, no, yes}));
-  EXPECT_THAT(page, HasSubstr("Where the claims of a &lt;figure&gt; hold"));
-  EXPECT_THAT(page, HasSubstr("Holds in 2 of 6 settings"));
+  EXPECT_THAT(page, HasSubstr("Where the claims of a &lt;figure&gt; are true"));
+  EXPECT_THAT(page, HasSubstr("True in 2 of 6 settings"));
 }
 
 TEST(Region, DocumentsHaveAnOutcomePerSetting) {

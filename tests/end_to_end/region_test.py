@@ -1,4 +1,4 @@
-"""`check --region`: the settings at which claims hold whose region is known, shards of it, and what is refused."""
+"""`check --region`: claims whose region is known, shards of it, and what is refused."""
 
 import json
 import pathlib
@@ -48,7 +48,7 @@ class Region(WholeRunTest):
         self.assertEqual(done.returncode, 2, done.stderr)
         return done.stderr
 
-    def test_claims_hold_where_they_must(self):
+    def test_claims_are_true_where_they_must(self):
         out = self.folder / "whole"
         text = run("check", self.experiment("known"), "--region", "--quiet", "-o", out)
         region = json.loads((out / "region.json").read_text(encoding="utf-8"))
@@ -61,9 +61,9 @@ class Region(WholeRunTest):
             self.assertEqual(has_many, "reproduced" if 2601 * (wide / 64 / far) ** 2 / 4 > 500 else "not_reproduced", values)
             self.assertEqual(is_small, "reproduced" if "unorm8" in values["toksvig"] else "not_reproduced", values)
             self.assertTrue((out / setting["name"] / "results.json").is_file())
-        self.assertIn("Holds in 6 of 12 settings, all of them with toksvig:storage=unorm8; at the stated setting it does not hold.", text)
+        self.assertIn("True in 6 of 12 settings, all of them with toksvig:storage=unorm8; at the stated setting it is false.", text)
         self.assertEqual((out / "table.md").read_text(encoding="utf-8").strip(), text.split("\npage: ")[0].strip())
-        self.assertIn("Holds in 6 of 12 settings", (out / "index.html").read_text(encoding="utf-8"))
+        self.assertIn("True in 6 of 12 settings", (out / "index.html").read_text(encoding="utf-8"))
         validator = jsonschema.Draft7Validator(json.loads((SOURCE / "docs" / "region.schema.json").read_text(encoding="utf-8")))
         validator.validate(region)
         self.assertFalse(validator.is_valid(region | {"axes": [{"key": 1}]}))

@@ -375,13 +375,13 @@ std::vector<float> partition_with_roughness(std::span<const PlanePoint> points, 
   const auto parts = static_cast<std::size_t>(settings.parts);
   std::vector<float> shares(points.size() * parts, 0.0F);
   std::size_t first = 0;
-  ProgressParts steps(progress, 2);
+  ProgressParts halves(progress, 2);
   for (const bool group : {false, true}) {
     PartitionSettings own = settings;
     own.parts = group ? settings.parts / 2 : (settings.parts + 1) / 2;
     own.variance = mean_over(variances, upper, group);
     const auto count = static_cast<std::size_t>(own.parts);
-    const std::vector<float> labels = partition(only(points, upper, group), width, height, own, steps.next(1, ""));
+    const std::vector<float> labels = partition(only(points, upper, group), width, height, own, halves.next(1, ""));
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (upper[i] == group) std::copy_n(&labels[i * count], count, &shares[i * parts + first]);
     }

@@ -60,7 +60,7 @@ std::uint32_t hash(std::uint32_t x) {
 }
 
 constexpr int largest_grid = 4;  // a pass then takes 16 times an image's memory
-constexpr double fixed_point = 0x1.0p-32;
+constexpr double fixed_point_step = 0x1.0p-32;
 
 // The largest grid that divides the samples into enough passes.
 int grid_of(int spp, int fewest_passes) {
@@ -73,8 +73,8 @@ int grid_of(int spp, int fewest_passes) {
 
 glm::dvec2 offset_of(std::uint32_t pass, std::uint32_t seed) {
   const glm::uvec2 point = sample_digits(SamplePair::pixel, pass);
-  return {scrambled(point.x, combined_seed(seed, 0)) * fixed_point - 0.5,
-          scrambled(point.y, combined_seed(seed, 1)) * fixed_point - 0.5};
+  return {scrambled(point.x, combined_seed(seed, 0)) * fixed_point_step - 0.5,
+          scrambled(point.y, combined_seed(seed, 1)) * fixed_point_step - 0.5};
 }
 
 // Of a column or row: its first binary digit in bit 0, as the sequence's digits are.

@@ -17,7 +17,6 @@
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/core/process.hpp"
-#include "renderer/image/image_io.hpp"
 
 namespace footprint {
 namespace {
@@ -25,8 +24,6 @@ namespace {
 constexpr const char* program_description =
     "Compares methods of specular antialiasing (normal map filtering) with a supersampled reference: error, cost and "
     "memory of each, on your own glTF model, without a display.";
-
-constexpr int exit_not_finite = 1;
 
 constexpr const char* program_examples =
     R"(Examples:
@@ -160,15 +157,7 @@ void return_freed_memory_to_system() {
 #endif
 }
 
-// Writes a message per image that has values that are not finite; whether there is one.
-bool report_files_not_finite() {
-  const std::vector<std::string> lines = files_not_finite();
-  for (const std::string& line : lines) write_message(line);
-  return !lines.empty();
-}
-
 int report_error(const std::string& text, ErrorKind kind) {
-  report_files_not_finite();
   write_message(text);
   return static_cast<int>(kind);
 }
@@ -183,7 +172,7 @@ int run_program(int argc, const char* const* argv) {
   return_freed_memory_to_system();
   try {
     run_subcommand(argc, argv);
-    return report_files_not_finite() ? exit_not_finite : 0;
+    return 0;
   } catch (const Error& error) {
     return report_error(error.what(), error.kind());
   } catch (const std::system_error& error) {

@@ -75,7 +75,8 @@ std::optional<Error> losses_of(const OutputFolder& folder) {
   const std::vector<Error>& losses = folder.run().losses();
   if (losses.empty()) return {};
   const Error first = at_final_place(losses.front(), folder);
-  const std::string more = losses.size() == 1 ? "" : fmt::format(" ({} files were not written)", losses.size());
+  const std::string more =
+      losses.size() == 1 ? "" : fmt::format(" ({} files {})", losses.size(), folder.run().faults_text());
   return Error(ErrorKind::check, first.place(), fmt::format("{}; everything else is there{}", first.message(), more),
                first.hint());
 }

@@ -284,6 +284,9 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
     const std::optional<DiskCache> cache = cache_of(settings);
     shared.gpu = std::make_unique<GpuScene>(shared.context.info(), shared.scene, shared.effects, of_upload,
                                             cache ? &*cache : nullptr);
+    const GpuVisibility* const visibility = shared.gpu->visibility();
+    if (visibility != nullptr && !visibility->shortage().empty())
+      shared.scene.warnings.push_back(visibility->shortage());
   }
   for (const StagedFrames& method : wanted) {
     const auto failure =

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -53,8 +54,16 @@ std::string RunFolder::losses_text() const {
   const Error& first = losses_->front();
   std::string place = first.place();
   if (const std::string top = top_.string() + "/"; place.starts_with(top)) place.erase(0, top.size());
-  if (losses_->size() == 1) return fmt::format("not written: {}: {}", place, first.message());
-  return fmt::format("{} files were not written, the first: {}: {}", losses_->size(), place, first.message());
+  const bool written = first.kind() == ErrorKind::check;
+  if (losses_->size() == 1) return fmt::format("{}{}: {}", written ? "" : "not written: ", place, first.message());
+  return fmt::format("{} files {}, the first: {}: {}", losses_->size(), faults_text(), place, first.message());
+}
+
+std::string_view RunFolder::faults_text() const {
+  const auto broken = static_cast<std::size_t>(
+      std::ranges::count_if(*losses_, [](const Error& loss) { return loss.kind() == ErrorKind::check; }));
+  if (broken == 0) return "were not written";
+  return broken == losses_->size() ? "are not finite" : "were not written or are not finite";
 }
 
 }  // namespace footprint

@@ -23,7 +23,8 @@ class RunFolder {
   /// A folder inside, with the same losses.
   [[nodiscard]] RunFolder below(const std::filesystem::path& name) const;
 
-  /// Calls `write`. Anything that it throws becomes a loss, except for an interrupt, which passes.
+  /// Calls `write`. Anything that it throws becomes a loss, except for an interrupt, which passes: an illustration that
+  /// is not written, or one that is written although it is not finite (Error of the kind `check`).
   /// what: names the illustration where the exception does not.
   void attempt(std::string_view what, const std::function<void()>& write) const;
 
@@ -34,10 +35,12 @@ class RunFolder {
   /// which is a loss, and tries again. Errors (machine): it still cannot be written.
   void write_document(const std::filesystem::path& name, std::string_view content) const;
 
-  /// What could not be written, in order.
+  /// What could not be written, and what is not finite, in order.
   [[nodiscard]] const std::vector<Error>& losses() const noexcept { return *losses_; }
   /// One line about all losses for a page's notes, with places from the top folder; empty without any.
   [[nodiscard]] std::string losses_text() const;
+  /// What happened to the files of all losses: "were not written", "are not finite", or either.
+  [[nodiscard]] std::string_view faults_text() const;
 
  private:
   std::filesystem::path path_, top_;  ///< itself, and the folder that it is below

@@ -45,6 +45,14 @@ TEST(RunFolder, WritesNoTextThatCannotBeMade) {
   folder.write_text("table.md", []() -> std::string { throw Error(ErrorKind::usage, "table", "has no rows"); });
   EXPECT_FALSE(fs::exists(folder / "table.md"));
   EXPECT_EQ(folder.losses_text(), "not written: table: has no rows");
+  const RunFolder pictures(folder.path());
+  const auto not_finite = [] { throw Error(ErrorKind::check, "a.exr", "1 of 4 pixels are not finite"); };
+  pictures.attempt("a.exr", not_finite);
+  EXPECT_EQ(pictures.losses_text(), "a.exr: 1 of 4 pixels are not finite");
+  pictures.attempt("b.exr", not_finite);
+  EXPECT_EQ(pictures.losses_text(), "2 files are not finite, the first: a.exr: 1 of 4 pixels are not finite");
+  pictures.attempt("c.exr", [] { throw Error(ErrorKind::machine, "c.exr", "cannot be written"); });
+  EXPECT_EQ(pictures.faults_text(), "were not written or are not finite");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "renderer/core/files.hpp"
 #include "renderer/image/image_io.hpp"
 #include "tests/support/fresh_folder.hpp"
+#include "tests/support/image_files.hpp"
 #include "tests/support/png_file.hpp"
 #include "tests/support/says.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
+using test::expect_texels;
 using test::fresh_folder;
 using test::PngColor;
 using test::says;
@@ -38,19 +40,12 @@ std::string refusal_of(const fs::path& file, Transfer transfer) {
   return "no error";
 }
 
-void expect_texels_near(const Image& image, const std::vector<float>& expected, float tolerance = 1e-6F) {
-  ASSERT_EQ(image.texels.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(image.texels[i], expected[i], tolerance) << i;
-}
-
 // A file of OpenImageIO's, whose texels count up from 0.
 fs::path written(const std::string& name, const OIIO::ImageSpec& spec, float step = 1.0F) {
   const fs::path file = fresh_folder() / name;
   std::vector<float> texels(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = step * static_cast<float>(i);
-  const auto output = OIIO::ImageOutput::create(file.string());
-  EXPECT_TRUE(output && output->open(file.string(), spec)) << OIIO::geterror();
-  EXPECT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, texels.data()) && output->close()) << output->geterror();
+  test::write_by_library(file, spec, texels);
   return file;
 }
 
@@ -96,7 +91,7 @@ TEST(Declared, EveryOrderOfRadianceIsTurned) {
 
 TEST(Declared, ExposuresOfRadianceMultiply) {
   const auto file = doubling_hdr("EXPOSURE=4.0\n" + rgbe + "COLORCORR=1 2 4\nEXPOSURE= 0.5\n", "-Y 1 +X 1", 1);
-  expect_texels_near(read_image(file, "exposed", Transfer::declared), {1 / 2.0F, 1 / 4.0F, 1 / 8.0F});
+  expect_texels(read_image(file, "exposed", Transfer::declared), {1 / 2.0F, 1 / 4.0F, 1 / 8.0F});
 }
 
 // CIE XYZ of Rec. 709's white, and of its red: x = 0.64, y = 0.33, luminance 0.2126.
@@ -107,7 +102,7 @@ TEST(Declared, XyzeBecomesRec709) {
   };
   const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n";
   const auto file = bytes_from(head + pixel(0.9505, 1.0, 1.089) + pixel(0.4124, 0.2126, 0.0193));
-  expect_texels_near(read_image(file, "xyz", Transfer::declared), {1, 1, 1, 1, 0, 0}, 0.02F);
+  expect_texels(read_image(file, "xyz", Transfer::declared), {1, 1, 1, 1, 0, 0}, 0.02F);
   EXPECT_THROW((void)read_image(file, "xyz", Transfer::linear), Error) << "XYZ is no data";
 }
 
@@ -146,10 +141,10 @@ TEST(Declared, PrimariesOfAnExrCountForColoursAlone) {
   const std::array<float, 8> aces{0.713F, 0.293F, 0.165F, 0.83F, 0.128F, 0.044F, 0.32168F, 0.33767F};
   spec.attribute("chromaticities", {OIIO::TypeDesc::FLOAT, 8}, aces.data());
   const fs::path file = written("aces.exr", spec);  // 0, 1, 2
-  expect_texels_near(read_image(file, Transfer::linear), {0, 1, 2});
+  expect_texels(read_image(file, Transfer::linear), {0, 1, 2});
   const std::vector<float> converted{-0.6218F - 2 * 0.0833F, 1.1408F - 2 * 0.0106F, -0.1290F + 2 * 1.1530F};
-  expect_texels_near(read_image(file, Transfer::declared), converted, 1e-3F);
-  expect_texels_near(read_image(file, Transfer::srgb), converted, 1e-3F);
+  expect_texels(read_image(file, Transfer::declared), converted, 1e-3F);
+  expect_texels(read_image(file, Transfer::srgb), converted, 1e-3F);
 }
 
 std::vector<std::uint8_t> half_png(const std::string& chunks) {
@@ -185,8 +180,8 @@ TEST(Declared, PrimariesOfAPngAreConverted) {
     const auto file = test::png_file(1, 1, 8, PngColor::rgb, "\0\xff\0\x80"s, gamma_chunk(100000) + chunks);
     return read_image(file, "png", Transfer::declared);
   };
-  expect_texels_near(read(test::png_chunk("cHRM", swapped)), {0, 1, 128 / 255.0F}, 1e-5F);
-  expect_texels_near(read(test::png_chunk("cHRM", usual)), {1, 0, 128 / 255.0F});
+  expect_texels(read(test::png_chunk("cHRM", swapped)), {0, 1, 128 / 255.0F}, 1e-5F);
+  expect_texels(read(test::png_chunk("cHRM", usual)), {1, 0, 128 / 255.0F});
 }
 
 TEST(Declared, ProfilesAreNamedAndIgnored) {
@@ -209,7 +204,7 @@ TEST(Declared, ExifOfAPngTurnsPicturesAlone) {
   for (const bool little : {false, true}) {
     const auto file = test::png_file(2, 1, 8, PngColor::gray, "\0\x33\x66"s, test::png_chunk("eXIf", exif(6, little)));
     const FileImage data = read_file_image(file, "data", Transfer::linear);
-    expect_texels_near(data.image, {0.2F, 0.4F});
+    expect_texels(data.image, {0.2F, 0.4F});
     ASSERT_EQ(data.notes.size(), 1U);
     EXPECT_TRUE(says(data.notes.front(), "orientation (6)"));
     const FileImage picture = read_file_image(file, "picture", Transfer::declared);
@@ -228,10 +223,10 @@ TEST(Declared, OrientationsOfTiffAndJpegTurnPictures) {
   OIIO::ImageSpec tiff = spec_with(2, 1, {"R", "G", "B"});
   tiff.attribute("Orientation", 6);
   const fs::path file = written("turned.tif", tiff);
-  expect_texels_near(read_image(file, Transfer::linear), {0, 1, 2, 3, 4, 5});
+  expect_texels(read_image(file, Transfer::linear), {0, 1, 2, 3, 4, 5});
   const Image turned = read_image(file, Transfer::declared);
   EXPECT_EQ(turned.height, 2);
-  expect_texels_near(turned, {0, 1, 2, 3, 4, 5});
+  expect_texels(turned, {0, 1, 2, 3, 4, 5});
   OIIO::ImageSpec jpeg(16, 16, 3, OIIO::TypeDesc::UINT8);
   jpeg.attribute("Orientation", 3);
   const fs::path photo = written("turned.jpg", jpeg, 1 / 768.0F);
@@ -244,7 +239,7 @@ TEST(Declared, OrientationsOfTiffAndJpegTurnPictures) {
 TEST(Declared, FloatsOfATiffAreLinear) {
   const FileImage file = read_file_image(written("float.tif", spec_with(2, 1, {"R", "G", "B"})), Transfer::declared);
   EXPECT_TRUE(file.floats);
-  expect_texels_near(file.image, {0, 1, 2, 3, 4, 5});
+  expect_texels(file.image, {0, 1, 2, 3, 4, 5});
 }
 
 OIIO::ImageSpec windowed(const PixelWindow& stored, const PixelWindow& shown,
@@ -261,14 +256,14 @@ OIIO::ImageSpec windowed(const PixelWindow& stored, const PixelWindow& shown,
 
 TEST(Declared, PixelsOfAnExrAreInTheirPlace) {
   const fs::path cropped = written("cropped.exr", windowed({1, -1, 1, 1}, {0, -2, 2, 2}, {"R", "G", "B"}));
-  expect_texels_near(read_image(cropped, Transfer::linear), {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2});
+  expect_texels(read_image(cropped, Transfer::linear), {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2});
   const FileImage picture = read_file_image(cropped, Transfer::declared);
-  expect_texels_near(picture.image, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 1});  // coverage is where it stores
+  expect_texels(picture.image, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 1});  // coverage is where it stores
   EXPECT_EQ(picture.notes.size(), 1U);
   EXPECT_EQ(texels_in_header(cropped), 4U);
   const fs::path overscan = written("overscan.exr", windowed({-1, -1, 3, 3}, {0, 0, 1, 1}, {"R", "G", "B", "A"}));
   const FileImage middle = read_file_image(overscan, Transfer::declared);
-  expect_texels_near(middle.image, {16, 17, 18, 19});
+  expect_texels(middle.image, {16, 17, 18, 19});
   EXPECT_TRUE(middle.notes.empty());
   const fs::path apart = written("apart.exr", windowed({5, 5, 1, 1}, {0, 0, 2, 2}, {"R", "G", "B"}));
   EXPECT_TRUE(says(refusal_of(apart, Transfer::linear), "stores no pixel"));
@@ -344,10 +339,10 @@ fs::path two_parts(const std::vector<std::string>& first, const std::vector<std:
 
 TEST(Declared, ThePartWithColoursIsRead) {
   const FileImage second = read_file_image(two_parts({"Z"}, {"R", "G", "B"}), Transfer::declared);
-  expect_texels_near(second.image, {2, 2, 2});
+  expect_texels(second.image, {2, 2, 2});
   ASSERT_EQ(second.notes.size(), 1U);
   EXPECT_TRUE(says(second.notes.front(), "`two`"));
-  expect_texels_near(read_image(two_parts({"R", "G", "B"}, {"R", "G", "B"}), Transfer::declared), {1, 1, 1});
+  expect_texels(read_image(two_parts({"R", "G", "B"}, {"R", "G", "B"}), Transfer::declared), {1, 1, 1});
 }
 
 // A lossless WebP that keeps colours under alpha 0.
@@ -394,9 +389,7 @@ fs::path grey_tiff(const std::string& name, const std::vector<float>& rgba, bool
   const fs::path file = fresh_folder() / name;
   OIIO::ImageSpec spec = spec_with(static_cast<int>(rgba.size()) / 4, 1, {"R", "G", "B", "A"}, OIIO::TypeDesc::UINT8);
   if (!associated) spec.attribute("oiio:UnassociatedAlpha", 1);
-  const auto output = OIIO::ImageOutput::create(file.string());
-  EXPECT_TRUE(output->open(file.string(), spec) && output->write_image(OIIO::TypeDesc::FLOAT, rgba.data()));
-  EXPECT_TRUE(output->close());
+  test::write_by_library(file, spec, rgba);
   return file;
 }
 
@@ -406,9 +399,9 @@ TEST(Declared, AssociatedAlphaOfATiffIsDividedOrRefused) {
   EXPECT_NEAR(read_image(multiplied, Transfer::srgb).texels[0], 0.214041, 4e-3);  // of 0.5
   // Colours above alpha were not multiplied by it, whatever the file declares.
   const std::vector<float> straight{0.8F, 0.2F, 0.6F, 0.4F};
-  expect_texels_near(read_image(grey_tiff("straight.tif", straight, true), Transfer::linear), straight);
-  expect_texels_near(read_image(grey_tiff("other.tif", {0.2F, 0.2F, 0.0F, 0.4F}, false), Transfer::linear),
-                     {0.2F, 0.2F, 0.0F, 0.4F});
+  expect_texels(read_image(grey_tiff("straight.tif", straight, true), Transfer::linear), straight);
+  expect_texels(read_image(grey_tiff("other.tif", {0.2F, 0.2F, 0.0F, 0.4F}, false), Transfer::linear),
+                {0.2F, 0.2F, 0.0F, 0.4F});
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -40,29 +39,6 @@ void require_writable(const std::filesystem::path& file, const Image& image) {
       "write 1, 3 or 4 channels");
 }
 
-// Lines for files_not_finite.
-class Ledger {
- public:
-  void add(const std::filesystem::path& file, std::size_t broken, std::size_t pixels) {
-    if (broken == 0) return;
-    const std::lock_guard lock(mutex_);
-    lines_.push_back(fmt::format("{}: {} of {} pixels are not finite", file.filename().string(), broken, pixels));
-  }
-  [[nodiscard]] std::vector<std::string> lines() const {
-    const std::lock_guard lock(mutex_);
-    return lines_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::vector<std::string> lines_;
-};
-
-Ledger& ledger() {
-  static Ledger all;
-  return all;
-}
-
 std::size_t pixels_not_finite(const Image& image) {
   std::size_t count = 0;
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -71,6 +47,17 @@ std::size_t pixels_not_finite(const Image& image) {
     count += std::ranges::all_of(pixel, [](float value) { return std::isfinite(value); }) ? 0 : 1;
   }
   return count;
+}
+
+// After a file was written: it has the pixels that are finite, and the others must not pass unnoticed.
+void require_finite(const std::filesystem::path& file, std::span<const Image> images) {
+  std::size_t broken = 0, pixels = 0;
+  for (const Image& image : images) {
+    broken += pixels_not_finite(image);
+    pixels += image.texel_count();
+  }
+  if (broken > 0)
+    throw Error(ErrorKind::check, file.string(), fmt::format("{} of {} pixels are not finite", broken, pixels));
 }
 
 float clamped(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }  // NaN as 0
@@ -140,16 +127,14 @@ std::vector<unsigned char> encoded(const std::string& name, const char* format, 
 
 }  // namespace
 
-std::vector<std::string> files_not_finite() { return ledger().lines(); }
-
 void write_exr(const std::filesystem::path& file, const Image& image) {
   require_writable(file, image);
-  ledger().add(file, pixels_not_finite(image), image.texel_count());
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   if (image.channels == 1) spec.channelnames = {"Y"};
   describe_exr(spec);
   const std::array level{EncodedLevel{spec, image.texels.data()}};
   write_file_atomically(file, encoded(file.string(), "openexr", OIIO::TypeDesc::FLOAT, level));
+  require_finite(file, std::span(&image, 1));
 }
 
 std::vector<unsigned char> encoded_png(const std::string& name, int width, int height, int channels,
@@ -163,11 +148,11 @@ std::vector<unsigned char> encoded_png(const std::string& name, int width, int h
 
 void write_png(const std::filesystem::path& file, const Image& image) {
   require_writable(file, image);
-  ledger().add(file, pixels_not_finite(image), image.texel_count());
   std::vector<std::uint8_t> bytes(image.texels.size());
   std::ranges::transform(image.texels, bytes.begin(),
                          [](float value) { return static_cast<std::uint8_t>(std::lround(clamped(value) * 255.0F)); });
   write_file_atomically(file, encoded_png(file.string(), image.width, image.height, image.channels, bytes));
+  require_finite(file, std::span(&image, 1));
 }
 
 Image to_display(const Image& radiance, float exposure) {
@@ -185,14 +170,9 @@ Image to_display(const Image& radiance, float exposure) {
 void write_exr_chain(const std::filesystem::path& file, const ExrChain& chain, ExrTexel texel) {
   require_chain(chain);
   std::vector<EncodedLevel> levels;
-  std::size_t broken = 0, texels = 0;
-  for (const Image& level : chain.levels) {
-    broken += pixels_not_finite(level);
-    texels += level.texel_count();
-  }
-  ledger().add(file, broken, texels);
   for (const Image& level : chain.levels) levels.push_back({spec_of(chain, level, texel), level.texels.data()});
   write_file_atomically(file, encoded(file.string(), "openexr", OIIO::TypeDesc::FLOAT, levels));
+  require_finite(file, chain.levels);
 }
 
 }  // namespace footprint

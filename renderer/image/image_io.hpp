@@ -52,15 +52,11 @@ struct FileImage {
 /// Whether a file's name has the extension of an image that read_image may read.
 [[nodiscard]] bool names_an_image(const std::filesystem::path& file);
 
-/// The files that this process wrote although they have values that are not finite, a line each with the number of
-/// pixels. Every function below that writes an image adds to them.
-[[nodiscard]] std::vector<std::string> files_not_finite();
-
 /// Writes 1, 3 or 4 channels as 32-bit float EXR (zip), atomically. Throws Error (machine): the folder cannot be
-/// written, the disk is full.
+/// written, the disk is full; (check), once the file is written: values that are not finite, with the number of pixels.
 void write_exr(const std::filesystem::path& file, const Image& image);
 
-/// Writes 1, 3 or 4 channels of display values 0..1 (clamped, NaN as 0) as 8-bit PNG; atomic as write_exr.
+/// Writes 1, 3 or 4 channels of display values 0..1 (clamped, NaN as 0) as 8-bit PNG; atomic, and throws, as write_exr.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 /// The bytes of a PNG, 8 bits per channel. name: for messages; texels: 1, 3 or 4 `channels`, interleaved. Throws Error
@@ -89,8 +85,7 @@ struct ExrChain {
 /// alphabetical order, except R, G, B and A.
 /// chain: sizes as in mip_level_count, starting with the finest, or the finest only.
 /// texel: `half` rounds to nearest.
-/// Throws Error (machine): the folder cannot be written, the disk is full; std::logic_error: names and channels differ
-/// in number, or the sizes are not a chain.
+/// Throws Error: as write_exr; std::logic_error: names and channels differ in number, or the sizes are not a chain.
 void write_exr_chain(const std::filesystem::path& file, const ExrChain& chain, ExrTexel texel);
 
 /// Reads all levels of an EXR, mip-mapped or not. Throws Error (usage): missing, not an EXR, damaged, too many

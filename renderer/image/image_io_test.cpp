@@ -11,12 +11,14 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
 
 #include "renderer/core/error.hpp"
 #include "tests/support/fresh_folder.hpp"
+#include "tests/support/image_files.hpp"
 #include "tests/support/png_file.hpp"
 
 namespace footprint {
@@ -24,17 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
+using test::expect_texels;
 using test::fresh_folder;
 using test::PngColor;
 
 std::vector<std::uint8_t> bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void expect_texels(const Image& image, const std::vector<double>& expected) {
-  ASSERT_EQ(image.texels.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(image.texels[i], expected[i], 1e-6) << i;
 }
 
 Image gradient(int channels) {
@@ -124,9 +122,7 @@ TEST(ReadImage, EveryKindThatTheErrorsNameIsRead) {
   const std::vector<float> texels(std::size_t{8} * 8 * 3, 0.25F);
   for (const std::string extension : {"png", "jpg", "exr", "hdr", "tif", "bmp", "webp"}) {
     const fs::path file = folder / ("image." + extension);
-    const auto output = OIIO::ImageOutput::create(file.string());
-    ASSERT_TRUE(output && output->open(file.string(), {8, 8, 3, OIIO::TypeDesc::FLOAT})) << extension;
-    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, texels.data()) && output->close()) << extension;
+    test::write_by_library(file, {8, 8, 3, OIIO::TypeDesc::FLOAT}, texels);
     for (const Image& image :
          {read_image(file, Transfer::linear), read_image(bytes_of(file), "memory", Transfer::linear)}) {
       ASSERT_EQ(image.texels.size(), texels.size()) << extension;
@@ -182,7 +178,7 @@ TEST(WriteExr, NotANumberComesBackAsWritten) {
   Image image(2, 1, 3, 1.0F);
   image.texels[1] = std::numeric_limits<float>::quiet_NaN();
   image.texels[4] = std::numeric_limits<float>::infinity();
-  write_exr(file, image);
+  EXPECT_THROW(write_exr(file, image), Error);
   const Image back = read_image(file, Transfer::linear);
   EXPECT_TRUE(std::isnan(back.texels[1]));
   EXPECT_EQ(back.texels[4], std::numeric_limits<float>::infinity());
@@ -238,7 +234,7 @@ TEST(WritePng, RoundsAndClamps) {
   const fs::path file = fresh_folder() / "a.png";
   Image image(3, 1, 3);
   image.texels = {0.0F, 1.0F, 2.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), 0.5F, 100 / 255.0F, 0.2F, 0.6F};
-  write_png(file, image);
+  EXPECT_THROW(write_png(file, image), Error) << "NaN is written as 0, and named";
   expect_texels(read_image(file, Transfer::linear), {0, 1, 1, 0, 0, 128 / 255.0, 100 / 255.0, 0.2, 0.6});
 }
 
@@ -260,23 +256,38 @@ TEST(ToDisplay, ExposesClampsAndEncodes) {
   expect_texels(display, {0.5, 0.002 * 12.92, 1, 1, 0, 0, 0.735357, 0.5, 0, 0, 0, 0});
 }
 
-TEST(FilesNotFinite, AreNamedByEveryWriter) {
+TEST(FilesNotFinite, AreWrittenAndNamedByEveryWriter) {
   const fs::path folder = fresh_folder();
   Image image(3, 2, 4, 0.5F);
-  const std::size_t before = files_not_finite().size();
-  write_exr(folder / "fine.exr", image);
-  write_png(folder / "fine.png", to_display(image, 1.0F));
-  write_exr_chain(folder / "fine_chain.exr", {.levels = {image}, .channels = {"R", "G", "B", "A"}}, ExrTexel::full);
-  EXPECT_EQ(files_not_finite().size(), before);
+  const auto write_all = [&](const std::string& stem) {
+    const std::vector<std::function<void()>> writers{
+        [&] { write_exr(folder / (stem + ".exr"), image); },
+        [&] { write_png(folder / (stem + ".png"), to_display(image, 1.0F)); },
+        [&] {
+          write_exr_chain(folder / (stem + "_chain.exr"), {.levels = {image}, .channels = {"R", "G", "B", "A"}},
+                          ExrTexel::full);
+        }};
+    std::vector<std::string> errors;
+    for (const auto& write : writers) {
+      try {
+        write();
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::check);
+        errors.emplace_back(error.what());
+      }
+    }
+    return errors;
+  };
+  EXPECT_TRUE(write_all("fine").empty());
   image.at(1, 0)[0] = image.at(1, 0)[2] = std::numeric_limits<float>::quiet_NaN();
   image.at(2, 1)[1] = std::numeric_limits<float>::infinity();
-  write_exr(folder / "a.exr", image);
-  write_png(folder / "b.png", to_display(image, 1.0F));
-  write_exr_chain(folder / "c.exr", {.levels = {image}, .channels = {"R", "G", "B", "A"}}, ExrTexel::full);
-  const std::vector<std::string> lines = files_not_finite();
-  ASSERT_EQ(lines.size(), before + 3);
-  const std::array<std::string, 3> names{"a.exr", "b.png", "c.exr"};
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(lines[before + i], names.at(i) + ": 2 of 6 pixels are not finite");
+  const std::vector<std::string> errors = write_all("broken");
+  ASSERT_EQ(errors.size(), 3U);
+  const std::array<std::string, 3> names{"broken.exr", "broken.png", "broken_chain.exr"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(errors[i], (folder / names.at(i)).string() + ": 2 of 6 pixels are not finite");
+    EXPECT_TRUE(fs::exists(folder / names.at(i)));
+  }
 }
 
 // Encoding and decoding are inverses over all 8-bit codes.

@@ -1,6 +1,8 @@
 // Creates the textures of each use of an environment, and uploads visibility as layers and vertex attributes.
 #include "renderer/pipeline/gpu_environment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 #include <iterator>
@@ -151,6 +153,14 @@ GpuVisibility::GpuVisibility(const Scene& scene, const Environment& environment,
       maps_(blended_layers("visibility_maps", field_.layers)) {
   for (const Mesh& mesh : scene.meshes) vertex_count_ += mesh.vertices.size();
   bytes_ = maps_.bytes + vertex_count_ * vectors_per_vertex * sizeof(glm::vec4);
+}
+
+std::string GpuVisibility::shortage() const {
+  if (field_.coarseness == 1.0) return {};
+  return fmt::format(
+      "memory is short: what vertices see of the environment is computed {:g} times as far apart as "
+      "usual, so shadows of it are softer",
+      field_.coarseness);
 }
 
 std::vector<glm::vec4> GpuVisibility::attributes(const Scene& scene, std::size_t material) const {

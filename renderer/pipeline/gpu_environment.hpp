@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "renderer/core/progress.hpp"
@@ -101,6 +102,8 @@ class GpuVisibility {
   [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
   /// Root mean square error of the distances that the components reproduce, radians.
   [[nodiscard]] double error() const { return field_.error; }
+  /// A note that memory was short, so that fewer vertices were computed; empty otherwise.
+  [[nodiscard]] std::string shortage() const;
 
  private:
   VisibilityField field_;

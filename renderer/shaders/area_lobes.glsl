@@ -19,7 +19,7 @@ struct AreaOutline {
 
 AreaOutline outlineOf(AreaLight light, mat3 frame) {
   vec3 d = light.position_area.xyz - world_position;
-  float size = max(length(d), 1e-12);
+  float size = max(length(d), 1e-18);
   vec2 half_size = max(vec2(light.across_half.w, light.up_half.w) / size, least_half_size);
   bool rectangle = light.direction_shape.w > 0.5;
   float area = (rectangle ? 4.0 : pi) * half_size.x * half_size.y * size * size;

@@ -39,7 +39,7 @@ vec3 areaLightIntegral(SurfacePoint p, int number) {
     uvec4 digits = cell_directions[sample_cell] ^ direction_steps[i];
     vec2 at = drawnAreaPoint(light.direction_shape.w > 0.5, scrambledPair(digits.xy, seed.xy));
     vec3 d = centre + at.x * light.across_half.w * light.across_half.xyz + at.y * light.up_half.w * light.up_half.xyz;
-    radiance += weighedArea(p, light, d * inversesqrt(max(dot(d, d), 1e-24)) * p.frame, areaSpread(light, d));
+    radiance += weighedArea(p, light, d * inversesqrt(max(dot(d, d), 1e-36)) * p.frame, areaSpread(light, d));
     float choice = unitInterval(scrambled(cell_choices[sample_cell] ^ choice_steps[i], seed.z));
     vec3 wi = lobeDirection(p, vec3(scrambledPair(digits.zw, lobe_seed.xy), choice));
     if (dot(wi, wi) > 0.0 && meetsArea(light, p.frame * wi, d))

@@ -59,7 +59,7 @@ Incident incidentAreaPoint(int i, mat3 frame) {
   AreaLight light = area_lights[int(area_points[i].w)];
   vec3 d = area_points[i].xyz - world_position;
   float spread = areaSpread(light, d);
-  float attenuation = spread > 0.0 ? light.share.x / max(spread, 1e-12) : 0.0;
+  float attenuation = spread > 0.0 ? light.share.x / max(spread, 1e-36) : 0.0;
 //? if cast_shadow
   attenuation *= clearOfShadow(light.intensity.w, world_position, seen_facet, world_position - light.position_area.xyz);
 //? end

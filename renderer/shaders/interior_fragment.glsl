@@ -95,7 +95,7 @@ void main() {
 //? else
   // The gradient of texture coordinates over the plane of the triangle: u changes by dot(gradient, step) over a step.
   vec3 across_x = cross(along_y, facet), across_y = cross(facet, along_x);
-  float area = max(abs(dot(along_x, across_x)), 1e-30);
+  float area = max(abs(dot(along_x, across_x)), 1e-37);
   vec3 gradient_u = (mapped_x.x * across_x + mapped_y.x * across_y) / area;
   vec3 gradient_v = (mapped_x.y * across_x + mapped_y.y * across_y) / area;
   position_chart = vec4(world_position, piece.x);

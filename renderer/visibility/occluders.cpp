@@ -13,6 +13,15 @@ namespace {
 // 32-bit positions are off by 6e-8 of their size; triangles of one smooth surface meet within far more than that.
 constexpr float relative_offset = 1e-4F;
 
+// The factor that brings lengths of a very small or very large scene near 1, because Embree multiplies four of them. A
+// power of two rounds nothing.
+float scale_for(float radius) {
+  constexpr int most = 20;  // of the exponent: a micrometre to a thousand kilometres
+  if (!(radius > 0.0F)) return 1.0F;
+  const int exponent = std::ilogb(radius);
+  return std::abs(exponent) <= most ? 1.0F : std::ldexp(1.0F, -exponent);
+}
+
 [[noreturn]] void throw_out_of_memory(const Scene& scene) {
   throw Error(ErrorKind::machine, scene.source, "the search of what casts shadows gets no memory, or no thread",
               "set `cast = false` in [shadows] of a scene.toml, free memory, or raise `ulimit -v` or `ulimit -u`");
@@ -71,6 +80,7 @@ bool is_there(const Mesh& mesh, const Material& material, const Image& alpha_map
 Occluders::Occluders(const Scene& scene)
     : scene_(&scene),
       offset_(relative_offset * std::max(scene.bounds.radius(), std::numeric_limits<float>::min())),
+      scale_(scale_for(scene.bounds.radius())),
       device_(rtcNewDevice(nullptr)),
       rays_(device_ ? rtcNewScene(device_.get()) : nullptr) {
   if (!rays_) throw_out_of_memory(scene);
@@ -86,8 +96,15 @@ Occluders::Occluders(const Scene& scene)
 
 void Occluders::add(const Mesh& mesh, Sieve& sieve) {
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
-                             offsetof(Vertex, position), sizeof(Vertex), mesh.vertices.size());
+  if (scale_ == 1.0F) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
+                               offsetof(Vertex, position), sizeof(Vertex), mesh.vertices.size());
+  } else {
+    for (const Vertex& vertex : mesh.vertices) sieve.scaled.push_back(scale_ * vertex.position);
+    sieve.scaled.emplace_back(0.0F);  // Embree reads four floats of the last one
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sieve.scaled.data(), 0,
+                               sizeof(glm::vec3), mesh.vertices.size());
+  }
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
   if (sieve.material->alpha_cutoff || sieve.open_from_behind) {
@@ -102,7 +119,7 @@ void Occluders::add(const Mesh& mesh, Sieve& sieve) {
 
 // `towards_front` is the sign of a ray's direction along the outward normal of a triangle whose front it concerns.
 void Occluders::drop_hits(const RTCFilterFunctionNArguments* hits, float towards_front) {
-  const auto& [mesh, material, open, alpha] = *static_cast<const Sieve*>(hits->geometryUserPtr);
+  const auto& [mesh, material, open, alpha, scaled] = *static_cast<const Sieve*>(hits->geometryUserPtr);
   const unsigned n = hits->N;
   for (unsigned i = 0; i < n; ++i) {
     if (hits->valid[i] == 0) continue;
@@ -123,7 +140,7 @@ void Occluders::away_from_light(const RTCFilterFunctionNArguments* hits) { drop_
 bool Occluders::open_from_behind(std::size_t mesh) const { return sieves_[mesh].open_from_behind; }
 
 bool Occluders::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
-  RTCRay ray = embree_ray(origin, direction, 0.0F, distance);
+  RTCRay ray = embree_ray(scale_ * origin, direction, 0.0F, scale_ * distance);
   query_occlusion(rays_.get(), ray);
   return is_occluded(ray);
 }
@@ -131,7 +148,7 @@ bool Occluders::blocked(const glm::vec3& origin, const glm::vec3& direction, flo
 std::vector<bool> Occluders::blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const {
   std::vector<RTCRay> rays;
   rays.reserve(directions.size());
-  for (const glm::vec3& direction : directions) rays.push_back(embree_ray(origin, direction));
+  for (const glm::vec3& direction : directions) rays.push_back(embree_ray(scale_ * origin, direction));
   query_occlusion(rays_.get(), rays);
   std::vector<bool> out;
   out.reserve(rays.size());
@@ -140,7 +157,7 @@ std::vector<bool> Occluders::blocked(const glm::vec3& origin, std::span<const gl
 }
 
 std::optional<SurfacePoint> Occluders::nearest(const glm::vec3& origin, const glm::vec3& direction, float least) const {
-  RTCRayHit found{.ray = embree_ray(origin, direction, least), .hit = {}};
+  RTCRayHit found{.ray = embree_ray(scale_ * origin, direction, scale_ * least), .hit = {}};
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query_nearest(rays_.get(), found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};

@@ -62,7 +62,8 @@ class Occluders {
     const Mesh* mesh;
     const Material* material;
     bool open_from_behind;
-    Image alpha;  // one channel, of the base-colour map; only for alpha masks
+    Image alpha;                      // one channel, of the base-colour map; only for alpha masks
+    std::vector<glm::vec3> scaled{};  // positions times scale_, unless that is 1
   };
 
   // Discard hits of rays towards a light, or of rays in the direction of light.
@@ -73,6 +74,7 @@ class Occluders {
 
   const Scene* scene_;
   float offset_;
+  float scale_;  // from metres to the lengths of device_
   std::vector<Sieve> sieves_;
   EmbreeDevice device_;
   EmbreeScene rays_;

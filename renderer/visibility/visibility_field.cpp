@@ -86,10 +86,8 @@ struct Measured {
   std::vector<VertexVisibility> shares;  // without weights
 };
 
-void require_room(std::size_t vertices, std::size_t samples) {
-  require_memory(vertices * sizeof(VertexVisibility) + 2 * samples * map_texels * sizeof(float),
-                 fmt::format("visibility at {} vertices", vertices),
-                 "set `cast = false` in [shadows] of a scene.toml, or use a coarser model");
+std::uint64_t bytes_of(std::size_t vertices, std::size_t samples) {
+  return vertices * sizeof(VertexVisibility) + 2 * samples * map_texels * sizeof(float);
 }
 
 Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& occluders, Horizon horizon,
@@ -118,6 +116,27 @@ Measured measure(const std::vector<const Vertex*>& vertices, const Occluders& oc
 // Half of the longest edge of a refined mesh: between vertices so far apart the rasteriser interpolates.
 float sample_spacing(const Scene& scene) {
   return std::max(0.5F * scene.bounds.radius() / visibility_edges_in_radius, std::numeric_limits<float>::min());
+}
+
+struct ChosenVertices {
+  VertexSamples samples;
+  double coarseness;
+};
+
+// Doubles the distance of computed vertices until they fit in memory.
+ChosenVertices chosen_vertices(const std::vector<const Vertex*>& vertices, const Scene& scene, std::uint64_t memory) {
+  constexpr double coarsest = 64.0;  // farther apart than the whole scene is wide
+  const float spacing = sample_spacing(scene);
+  for (double coarseness = 1.0;; coarseness *= 2.0) {
+    VertexSamples samples(vertices, static_cast<float>(coarseness) * spacing);
+    const std::uint64_t bytes = bytes_of(vertices.size(), samples.samples().size());
+    if (bytes <= memory) return {std::move(samples), coarseness};
+    if (coarseness < coarsest) continue;
+    throw Error(ErrorKind::machine, {},
+                fmt::format("visibility at {} vertices takes {}, and {} are free", vertices.size(),
+                            readable_bytes(bytes), readable_bytes(memory)),
+                "set `cast = false` in [shadows] of a scene.toml, or use a coarser model");
+  }
 }
 
 VertexVisibility interpolated(const VertexSamples& samples, const Vertex& vertex, const Eigen::MatrixXf& weights,
@@ -159,7 +178,7 @@ std::vector<Image> make_layers(const Eigen::RowVectorXf& mean, const Eigen::Matr
   return layers;
 }
 
-constexpr std::string_view form = "footprint visibility 3";  // another layout below: another number here
+constexpr std::string_view form = "footprint visibility 4";  // another layout below: another number here
 
 template <class Value>
 void add_values(ContentHash& hash, const std::vector<Value>& values) {
@@ -189,10 +208,8 @@ std::vector<glm::dvec3> visibility_light(const Environment& environment) {
 }
 
 VisibilityField visibility_field(const Scene& scene, const Occluders& occluders, const Environment& environment,
-                                 const Progress& progress) {
-  const std::vector<const Vertex*> vertices = all_vertices(scene);
-  const VertexSamples samples(vertices, sample_spacing(scene));
-  require_room(vertices.size(), samples.samples().size());
+                                 const Progress& progress, std::uint64_t memory) {
+  const auto [samples, coarseness] = chosen_vertices(all_vertices(scene), scene, memory);
   Measured measured = measure(samples.samples(), occluders, scene.horizon, visibility_light(environment), progress);
   const Eigen::RowVectorXf mean = measured.distances.colwise().mean();
   measured.distances.rowwise() -= mean;
@@ -201,12 +218,13 @@ VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
   VisibilityField field{.layers = make_layers(mean, components), .meshes = {}};
   for (const Mesh& mesh : scene.meshes) {
     std::vector<VertexVisibility>& values = field.meshes.emplace_back(mesh.vertices.size());
-    tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
-      values[i] = interpolated(samples, mesh.vertices[i], weights, measured.shares);
+    tbb::parallel_for(std::size_t{0}, values.size(), [&, &from = samples](std::size_t i) {
+      values[i] = interpolated(from, mesh.vertices[i], weights, measured.shares);
     });
   }
   const double left_out = (measured.distances - weights * components.transpose()).squaredNorm();
   field.error = std::sqrt(left_out / static_cast<double>(measured.distances.size()));
+  field.coarseness = coarseness;
   return field;
 }
 
@@ -243,7 +261,7 @@ VisibilityField cached_visibility_field(const Scene& scene, const Environment& e
   const std::optional<ByteSource> bytes = cache->find(key);
   if (auto cached = bytes ? visibility_from_bytes(*bytes, scene) : std::nullopt) return *std::move(cached);
   VisibilityField field = visibility_field(scene, Occluders(scene), environment, progress);
-  cache->store(key, to_bytes(field));
+  if (field.coarseness == 1.0) cache->store(key, to_bytes(field));
   return field;
 }
 

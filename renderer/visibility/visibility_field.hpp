@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/core/disk_cache.hpp"
+#include "renderer/core/memory.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/scene/environment.hpp"
 #include "renderer/visibility/signed_distance.hpp"
@@ -38,13 +39,17 @@ struct VisibilityField {
   std::vector<Image> layers;                          ///< RGBA, bordered octahedral maps; the first channel is the mean
   std::vector<std::vector<VertexVisibility>> meshes;  ///< per mesh and vertex of the scene
   double error = 0.0;                                 ///< root mean square error of the distances, radians
+  double coarseness = 1.0;  ///< factor on the least distance of computed vertices; above 1 where memory was short
 };
 
 /// Computes the visibility (VertexSamples; 1024 rays each, TBB and Embree) at vertices at least half a refined mesh's
-/// edge apart, compresses the distances by principal components, and interpolates them at the other vertices. Equal
-/// scenes give equal fields at any number of threads. Throws Error (machine): too little memory; as `progress`.
+/// edge apart, compresses the distances by principal components, and interpolates them at the other vertices. Where the
+/// computed vertices do not fit in memory, fewer are taken, farther apart. Equal scenes give equal fields at any number
+/// of threads. memory: bytes that may be allocated. Throws Error (machine): too little memory for the vertices' values;
+/// as `progress`.
 [[nodiscard]] VisibilityField visibility_field(const Scene& scene, const Occluders& occluders,
-                                               const Environment& environment, const Progress& progress);
+                                               const Environment& environment, const Progress& progress,
+                                               std::uint64_t memory = available_memory());
 
 /// The key of a scene's field: a hash of this program, triangles, normals, alpha masks and the light of the
 /// environment.
@@ -57,7 +62,7 @@ struct VisibilityField {
 /// match the vertices of `scene`.
 [[nodiscard]] std::optional<VisibilityField> visibility_from_bytes(const ByteSource& bytes, const Scene& scene);
 
-/// Reads the field from `cache`, or computes and stores it. Throws as visibility_field.
+/// Reads the field from `cache`, or computes it, and stores it unless memory was short. Throws as visibility_field.
 /// cache: may be null.
 [[nodiscard]] VisibilityField cached_visibility_field(const Scene& scene, const Environment& environment,
                                                       const DiskCache* cache, const Progress& progress);

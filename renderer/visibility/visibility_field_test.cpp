@@ -221,6 +221,36 @@ TEST(VisibilityField, TakesAsManyVerticesAsAScene) {
   EXPECT_EQ(field.meshes[0].back().diffuse_share, field.meshes[0].front().diffuse_share);
 }
 
+// Where memory is short, fewer vertices are computed, farther apart; where not even their values fit, none are.
+TEST(VisibilityField, ComputesFewerVerticesWhereMemoryIsShort) {
+  Scene scene = box_over_floor();
+  for (Mesh& mesh : scene.meshes) mesh = subdivided(mesh, scene.bounds.radius() / visibility_edges_in_radius);
+  const Environment white = constant_environment(glm::vec3(1.0F));
+  const Occluders occluders(scene);
+  const auto field_in = [&](std::uint64_t bytes) {
+    return visibility_field(scene, occluders, white, no_progress, bytes);
+  };
+  const VisibilityField whole = field_in(std::uint64_t{1} << 30U);
+  EXPECT_EQ(whole.coarseness, 1.0);
+  std::size_t vertices = 0;
+  for (const Mesh& mesh : scene.meshes) vertices += mesh.vertices.size();
+  const std::uint64_t values = vertices * sizeof(VertexVisibility);
+  const VisibilityField coarse = field_in(values + 100 * 2048);  // a hundred of them
+  EXPECT_GT(coarse.coarseness, 1.0);
+  double worst = 0.0, sum = 0.0;
+  for (std::size_t m = 0; m < whole.meshes.size(); ++m) {
+    ASSERT_EQ(coarse.meshes[m].size(), whole.meshes[m].size());
+    for (std::size_t i = 0; i < whole.meshes[m].size(); ++i) {
+      const double off = std::abs(coarse.meshes[m][i].diffuse_share.x - whole.meshes[m][i].diffuse_share.x);
+      worst = std::max(worst, off);
+      sum += off;
+    }
+  }
+  EXPECT_GT(worst, 0.0);
+  EXPECT_LT(sum / static_cast<double>(vertices), 0.1);
+  EXPECT_THROW((void)field_in(values - 1), Error);
+}
+
 TEST(VisibilityField, CanBeInterrupted) {
   const Scene scene = box_over_floor();
   const auto stop = [](std::string_view, double) { throw Error(ErrorKind::interrupted, "", "stopped"); };

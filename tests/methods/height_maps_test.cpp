@@ -113,7 +113,7 @@ TEST(HeightMapsOfModels, ThatAreNotFiniteNameFileAndTexel) {
   Image heights = some_heights(32);
   heights.at(5, 6)[0] = std::nanf("");
   const auto folder = test::write_file("heights/made.txt", "").parent_path();
-  write_exr(folder / "bad.exr", heights);
+  EXPECT_THROW(write_exr(folder / "bad.exr", heights), Error);  // once it is written
   const auto scene = test::write_file("heights/bad.toml", "[plane]\nheight_map = { file = \"bad.exr\", scale = 1 }\n");
   const std::string error = test::usage_error([&] { return load_scene(scene.string(), {}); });
   EXPECT_NE(error.find("bad.exr"), std::string::npos) << error;

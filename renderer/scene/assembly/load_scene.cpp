@@ -1,9 +1,13 @@
 // Finds the file that a SCENE argument names, joins its parts, and adds missing cameras, lights and exposure.
 #include "renderer/scene/assembly/load_scene.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <string_view>
 #include <system_error>
 
 #include "renderer/core/error.hpp"
@@ -121,7 +125,9 @@ Scene assemble_scene(const SceneSettings& settings, const std::optional<PlacedBo
   tell_apart(model.materials);
   Scene scene = settings.scene;
   if (model.meshes.empty()) {
-    throw Error(ErrorKind::usage, scene.source, "the scene has no triangle",
+    const std::string_view why = model.warnings.empty() ? "" : ": ";
+    throw Error(ErrorKind::usage, scene.source,
+                fmt::format("the scene has no triangle{}{}", why, fmt::join(model.warnings, "; ")),
                 "give it a mesh with at least one triangle");
   }
   scene.meshes = std::move(model.meshes);

@@ -9,6 +9,7 @@
 #include "renderer/image/image_io.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
+#include "tests/support/says.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace footprint {
@@ -175,6 +176,26 @@ TEST(LoadScene, ScenesWithoutATriangleAreRefused) {
   quad.json["nodes"][0].erase("mesh");
   const auto file = quad.write().string();
   EXPECT_NE(test::usage_error([&] { return load_scene(file, {}); }).find("no triangle"), std::string::npos);
+}
+
+// Why there is none: meshes hidden by their own node or one above, and what is left out.
+TEST(LoadScene, ScenesWithoutATriangleSayWhy) {
+  const auto error_of = [](test::GltfBuilder quad) {
+    const auto file = quad.write().string();
+    return test::usage_error([&] { return load_scene(file, {}); });
+  };
+  test::GltfBuilder hidden = test::make_quad();
+  hidden.json["extensionsUsed"] = {"KHR_node_visibility"};
+  hidden.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
+  EXPECT_TRUE(test::says(error_of(hidden), "hidden by KHR_node_visibility"));
+  hidden.json["nodes"].push_back(hidden.json["nodes"][0]);
+  hidden.json["nodes"][1].erase("extensions");
+  hidden.json["nodes"][0].erase("mesh");
+  hidden.json["nodes"][0]["children"] = {1};
+  EXPECT_TRUE(test::says(error_of(hidden), "hidden by KHR_node_visibility"));
+  test::GltfBuilder lines = test::make_quad();
+  lines.json["meshes"][0]["primitives"][0]["mode"] = 1;
+  EXPECT_TRUE(test::says(error_of(lines), "lines"));
 }
 
 TEST(LoadScene, BrokenMapsOfAPlaneAreNamed) {

@@ -1,13 +1,11 @@
 // Thousands of damaged glTF files: each loads or throws Error; nothing else may happen. The sanitizer preset looks on.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
+#include <string>
 
-#include "renderer/core/error.hpp"
 #include "renderer/scene/model.hpp"
-#include "tests/support/damaged_text.hpp"
 #include "tests/support/gltf_builder.hpp"
+#include "tests/support/sound_model.hpp"
 
 namespace footprint {
 namespace {
@@ -40,33 +38,10 @@ GltfBuilder make_rich() {
   return quad;
 }
 
-void expect_sound(const Model& model) {
-  for (const Mesh& mesh : model.meshes) {
-    EXPECT_LT(static_cast<std::size_t>(mesh.material), model.materials.size());
-    for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
-    for (const Vertex& vertex : mesh.vertices) {
-      ASSERT_TRUE(std::isfinite(glm::length(vertex.position)));
-      ASSERT_NEAR(glm::length(vertex.normal), 1.0F, 1e-4F);
-      ASSERT_NEAR(glm::length(glm::vec3{vertex.tangent}), 1.0F, 1e-4F);
-      ASSERT_TRUE(std::isfinite(vertex.uv0.x + vertex.uv0.y));
-    }
-  }
-}
-
 /// Returns how many of `count` damaged files still load.
 int fuzz(const std::string& whole, const std::string& name, int count, unsigned seed) {
-  std::mt19937 random(seed);
-  int loaded = 0;
-  for (int i = 0; i < count; ++i) {
-    const auto file = test::write_file(name, test::damaged(whole, random));
-    try {
-      expect_sound(load_gltf(file));
-      ++loaded;
-    } catch (const Error& error) {
-      EXPECT_FALSE(error.message().empty());
-    }
-  }
-  return loaded;
+  return test::count_loaded(whole, count, seed,
+                            [&](const std::string& text) { return load_gltf(test::write_file(name, text)); });
 }
 
 TEST(GltfFuzz, DamagedTextLoadsOrThrowsError) {
@@ -84,7 +59,7 @@ TEST(GltfFuzz, DamagedBinaryLoadsOrThrowsError) { EXPECT_GT(fuzz(make_rich().glb
 
 TEST(GltfFuzz, TheUndamagedFileLoads) {
   const Model model = load_gltf(test::write_file("rich.glb", make_rich().glb()));
-  expect_sound(model);
+  test::expect_sound(model);
   EXPECT_TRUE(model.camera);
   EXPECT_EQ(model.lights.size(), 1U);
   EXPECT_TRUE(model.materials.at(0).normal_map);

@@ -399,6 +399,15 @@ TEST(Gltf, LightsHaveTheValuesThatTheFormatSupplies) {
   EXPECT_TRUE(mentions(no_range.warnings, "range of 0"));
 }
 
+TEST(Gltf, SpotLightsWithoutAConeHaveTheDefault) {
+  const Model model = load_gltf(lit_quad({{"type", "spot"}, {"intensity", 3}}).write());
+  EXPECT_TRUE(mentions(model.warnings, "from 0 to 45 degrees"));
+  const auto& spot = std::get<SpotLight>(model.lights.at(0));
+  EXPECT_EQ(spot.inner_cone_angle, 0.0F);
+  EXPECT_FLOAT_EQ(spot.outer_cone_angle, std::numbers::pi_v<float> / 4.0F);
+  EXPECT_EQ(spot.point.intensity, glm::vec3(3.0F));
+}
+
 TEST(Gltf, LightsThatAreScaledToNothingAreLeftOut) {
   const json nothing{{"scale", {0, 0, 0}}}, flat{{"scale", {1, 1, 0}}}, whole = json::object();
   const json spot{{"type", "spot"}, {"spot", json::object()}}, point{{"type", "point"}}, sun{{"type", "directional"}};

@@ -116,9 +116,10 @@ PointLight convert_point(const Json& source, const Placing& placing, std::vector
 }
 
 SpotLight convert_spot(const Json& source, const Placing& placing, std::vector<std::string>& warnings) {
-  require(source.contains("spot"), placing.place, "needs `spot`, as its type is");
   constexpr double rounding = 1e-6;
-  const Json& spot = source["spot"];
+  const Json spot = source.value("spot", Json::object());
+  if (!source.contains("spot"))
+    add_once(warnings, placing.place + ": it has no `spot`, so its cone is the default, from 0 to 45 degrees");
   const double inner = spot.value("innerConeAngle", 0.0), outer = spot.value("outerConeAngle", std::numbers::pi / 4.0);
   require(inner >= 0.0 && inner <= outer + rounding && outer > 0.0 && outer <= std::numbers::pi / 2 + rounding,
           placing.place, "needs 0 <= innerConeAngle < outerConeAngle <= pi / 2");
@@ -262,12 +263,17 @@ class Gatherer {
   void gather(const Nodes& roots) {
     walk(pose_, roots, [&](const Json& node, const glm::dmat4& world, bool visible) {
       add_camera(node, world);
-      if (!visible) return;
+      if (!visible) {
+        hides_mesh_ = hides_mesh_ || node.contains("mesh");
+        return;
+      }
       add_light(node, world);
       add_mesh(node, world);
     });
     result_.materials = materials_.materials();
     for (auto& [material, mesh] : meshes_) result_.meshes.push_back(std::move(mesh));
+    if (hides_mesh_ && result_.meshes.empty())
+      add_once(result_.warnings, "no mesh is left: nodes with meshes are hidden by KHR_node_visibility");
   }
 
   /// In the order of the nodes.
@@ -324,6 +330,7 @@ class Gatherer {
   GltfMaterials materials_;
   std::map<int, Mesh> meshes_;
   std::uint64_t index_count_ = 0;
+  bool hides_mesh_ = false;
 };
 
 void warn_left_out(const Json& document, Model& result) {

@@ -114,6 +114,7 @@ void fields(auto& archive, Is<ClaimOutcome> auto& value) {
   archive.derived("as_expected", value.as_expected());
   archive("reason", value.reason);
   archive("problem", value.problem);
+  archive("undecidable", value.undecidable);
   archive("left", value.left);
   archive("right", value.right);
   archive("figures", value.figures);

@@ -36,6 +36,7 @@ const std::vector<std::string> further_tables{"zoom",      "camera", "reference"
 const std::vector<std::string> preset_tables{"experiment", "zoom", "camera", "reference", "matrix"};
 const std::vector<std::string> joined_tables{"experiment", "reference", "matrix"};
 const std::vector<std::string> head_keys{"title", "description", "members", "presets"};
+const std::vector<std::string> claim_keys{"name", "text", "source", "gpu_class", "inequality", "expect", "reason"};
 
 std::vector<std::string> with(std::vector<std::string> keys, const std::vector<std::string>& further) {
   keys.insert(keys.end(), further.begin(), further.end());
@@ -92,6 +93,17 @@ void check_measures(const Expression& expression, const Experiment& experiment) 
   for (const Measure& measure : expression.measures()) check_measure(measure, experiment);
 }
 
+// Errors (usage): a claim whose source is not gpu_time has one; a word is empty.
+std::vector<std::string> read_gpu_class(const TomlTable& table, ClaimSource source) {
+  const std::optional<std::vector<std::string>> words = table.words("gpu_class");
+  if (!words) return {};
+  if (source != ClaimSource::gpu_time)
+    throw table.error_at("gpu_class", "belongs to claims over times on a GPU", "add source = \"gpu_time\"");
+  if (std::ranges::find(*words, "") != words->end())
+    throw table.error_at("gpu_class", "has an empty word", "give words of the GPU's name, as [\"GeForce\"]");
+  return *words;
+}
+
 Claim read_claim(const TomlTable& table, const Experiment& experiment) {
   const std::string text = required_word(table, "inequality");
   Inequality inequality = at_key(table, "inequality", [&] {
@@ -100,20 +112,20 @@ Claim read_claim(const TomlTable& table, const Experiment& experiment) {
     check_measures(parsed.right, experiment);
     return parsed;
   });
-  const std::size_t expect = needed(table, "expect", table.choice("expect", {"reproduced", "not_reproduced"}));
   Claim claim{.inequality = std::move(inequality)};
   claim.stated.name = required_word(table, "name");
   claim.stated.text = required_word(table, "text");
   claim.stated.source = read_word(table, "source", claim_source_words).value_or(ClaimSource::ours);
   claim.stated.inequality = text;
-  claim.stated.expect = expect == 0 ? Verdict::reproduced : Verdict::not_reproduced;
+  claim.stated.expect = needed(table, "expect", read_word(table, "expect", verdict_words));
   claim.stated.reason = required_word(table, "reason");
   claim.stated.place = table.error_at("name", "", "").place();
+  claim.gpu_class = read_gpu_class(table, claim.stated.source);
   return claim;
 }
 
 void read_claims(const TomlTable& root, Experiment& experiment) {
-  for (const TomlTable& table : root.tables("claim", {"name", "text", "source", "inequality", "expect", "reason"})) {
+  for (const TomlTable& table : root.tables("claim", claim_keys)) {
     Claim claim = read_claim(table, experiment);
     const std::string& name = claim.stated.name;
     if (std::ranges::any_of(experiment.claims, [&](const Claim& other) { return other.stated.name == name; }))

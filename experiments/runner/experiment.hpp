@@ -17,7 +17,8 @@ namespace footprint {
 
 /// A statement, of a paper or our own, as an inequality over the records.
 struct Claim {
-  ClaimOutcome stated = {};  ///< undecided
+  ClaimOutcome stated = {};                 ///< undecided
+  std::vector<std::string> gpu_class = {};  ///< of a gpu_time: words of GL_RENDERER of GPUs that decide it; empty: none
   Inequality inequality;
 };
 

@@ -383,6 +383,107 @@ TEST_F(ExperimentFile, ClaimsOverTimesAreDecidedAgainByEstimates) {
   EXPECT_EQ(report.second_verdicts[3].outcome, Verdict::reproduced);
 }
 
+constexpr const char* over_gpu_times = R"toml(
+[[claim]]
+name = "class"
+text = "t"
+source = "gpu_time"
+gpu_class = ["GeForce", "Quadro"]
+inequality = "time(toksvig) < 2 * time(direct)"
+expect = "not_reproduced"
+reason = "r"
+[[claim]]
+name = "no_class"
+text = "t"
+source = "gpu_time"
+inequality = "fps(direct) > 10"
+expect = "undecided"
+reason = "r"
+[[claim]]
+name = "ours"
+text = "t"
+inequality = "time(toksvig) < 2 * time(direct)"
+expect = "not_reproduced"
+reason = "r"
+[[claim]]
+name = "no_measure"
+text = "t"
+source = "our_measure"
+inequality = "time(toksvig) > 0"
+expect = "undecided"
+reason = "the paper does not say over what"
+)toml";
+
+Results timed_on(const std::string& renderer) {
+  Results results;
+  results.backend.renderer = renderer;
+  for (const bool is_direct : {true, false}) {
+    Record& record = results.records.emplace_back();
+    record.method = is_direct ? "direct" : "toksvig:storage=fp16";
+    record.node = "here";
+    record.error.emplace().normalized_color = 0.1;
+    record.frame_ms.median = is_direct ? 1.0 : 4.0;
+    record.fps = 1000.0 / record.frame_ms.median;
+  }
+  return results;
+}
+
+std::vector<Verdict> verdicts(const ExperimentReport& report) {
+  std::vector<Verdict> found;
+  for (const ClaimOutcome& claim : report.claims) found.push_back(claim.outcome);
+  return found;
+}
+
+// Only a GPU of the class decides a claim over a GPU's times. Other claims over times are decided by any machine, and
+// one that is expected undecided by none.
+TEST_F(ExperimentFile, TimesOfAGpuAreDecidedByAGpuOfItsClass) {
+  using enum Verdict;
+  const Experiment experiment = read(std::string(head) + over_gpu_times);
+  for (const char* renderer : {"llvmpipe (LLVM 15.0.6, 256 bits)", "zink Vulkan 1.3(llvmpipe (LLVM 15, GeForce))",
+                               "NVIDIA H100 80GB HBM3/PCIe/SSE2", "AMD Radeon RX 480", ""}) {
+    const Results results = timed_on(renderer);
+    const ExperimentReport report = judge(experiment, std::span(&results, 1));
+    EXPECT_EQ(verdicts(report), (std::vector{undecided, undecided, not_reproduced, undecided})) << renderer;
+    for (const ClaimOutcome& claim : report.claims) EXPECT_TRUE(claim.as_expected()) << renderer << " " << claim.name;
+    EXPECT_NE(report.claims[0].undecidable.find(renderer), std::string::npos) << report.claims[0].undecidable;
+    EXPECT_DOUBLE_EQ(report.claims[0].left.value(), 4.0) << "the figures stay";
+    EXPECT_EQ(report.claims[3].undecidable, "the paper does not say over what");
+  }
+  const Results of_class = timed_on("NVIDIA GeForce RTX 3080/PCIe/SSE2");
+  EXPECT_EQ(verdicts(judge(experiment, std::span(&of_class, 1))),
+            (std::vector{not_reproduced, undecided, not_reproduced, undecided}));
+}
+
+TEST_F(ExperimentFile, AFigureThatIsMissingFailsOnAnyMachine) {
+  const Experiment experiment = read(std::string(head) + over_gpu_times);
+  Results results = timed_on("llvmpipe");
+  for (Record& record : results.records) record.frame_ms.median = std::nan("");
+  const ExperimentReport report = judge(experiment, std::span(&results, 1));
+  EXPECT_FALSE(report.claims[0].as_expected());
+  EXPECT_TRUE(report.claims[1].as_expected()) << "it has its figure";
+}
+
+TEST_F(ExperimentFile, TimesOfSeveralSoftwareRenderersDecideNoMoreThanOne) {
+  const Experiment experiment = read(std::string(head) + over_gpu_times);
+  Results results = timed_on("llvmpipe");
+  results.records[1].node = "there";
+  const ExperimentReport report = judge(experiment, std::span(&results, 1));
+  EXPECT_TRUE(report.claims[0].as_expected());
+  EXPECT_FALSE(report.claims[2].as_expected()) << "ours, over times of two machines";
+}
+
+TEST_F(ExperimentFile, AGpuClassBelongsToTimesOfAGpu) {
+  const std::string claim = "[[claim]]\nname = \"a\"\ntext = \"t\"\ninequality = \"fps(direct) > 1\"\nreason = \"r\"\n";
+  const std::string timed = std::string(head) + claim + "expect = \"undecided\"\nsource = \"gpu_time\"\n";
+  EXPECT_EQ(read(timed + "gpu_class = [\"A\", \"B\"]\n").claims[0].gpu_class, (std::vector<std::string>{"A", "B"}));
+  EXPECT_TRUE(read(timed).claims[0].gpu_class.empty());
+  expect_complaint(timed + "gpu_class = []\n", "must be a list of strings");
+  expect_complaint(timed + "gpu_class = [\"\"]\n", "has an empty word");
+  expect_complaint(std::string(head) + claim + "expect = \"reproduced\"\ngpu_class = [\"A\"]\n",
+                   "belongs to claims over times on a GPU");
+  expect_complaint(std::string(head) + claim + "expect = \"nothing\"\n", "undecided");
+}
+
 TEST(Zoom, StepsAreEqualRatiosBetweenExactEnds) {
   EXPECT_EQ(zoom_distances(1, 8, 4), (std::vector<double>{1, 2, 4, 8}));
   EXPECT_EQ(zoom_distances(0.1, 0.7, 2), (std::vector<double>{0.1, 0.7}));

@@ -236,6 +236,7 @@ std::vector<FigureFunction> function_table() {
           {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
           {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns), no_estimate},
           {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions), no_estimate},
+          {"gpu_vertex_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::vertex_instructions), no_estimate},
           {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads), no_estimate},
           {"precompute", records, nothing,
            over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }),

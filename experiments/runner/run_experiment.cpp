@@ -21,6 +21,7 @@
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/gl/context.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
@@ -93,7 +94,28 @@ void add_figures(const Evaluation& evaluation, std::vector<ClaimFigure>& figures
   }
 }
 
-ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
+// Why times of a renderer do not decide a claim over times of a GPU; empty: they do.
+std::string undecidable_on(const std::string& renderer, const std::vector<std::string>& gpu_class) {
+  if (gl::is_software_renderer(renderer)) return fmt::format("timed on {}, a software renderer", renderer);
+  const auto is_named = [&](const std::string& word) { return renderer.find(word) != std::string::npos; };
+  if (std::ranges::any_of(gpu_class, is_named)) return {};
+  const std::string timed = fmt::format("timed on {}", renderer.empty() ? "an unknown renderer" : renderer);
+  if (gpu_class.empty()) return timed + ", and no GPU is named that decides it";
+  return fmt::format("{}, not on a GPU that decides it: {}", timed, fmt::join(gpu_class, ", "));
+}
+
+// Why no figure of the runs decides a claim; empty: figures decide it.
+std::string undecidable(const Claim& claim, std::span<const Results> runs) {
+  if (claim.stated.source != ClaimSource::gpu_time)
+    return claim.stated.expect == Verdict::undecided ? claim.stated.reason : "";
+  for (const Results& run : runs) {
+    if (std::string why = undecidable_on(run.backend.renderer, claim.gpu_class); !why.empty()) return why;
+  }
+  return {};
+}
+
+// The figures of a claim, and the verdict of its inequality, on whatever machine.
+ClaimOutcome evaluated(const Claim& claim, std::span<const Results> runs) {
   const Evaluation left = claim.inequality.left.evaluate(runs);
   const Evaluation right = claim.inequality.right.evaluate(runs);
   ClaimOutcome outcome = claim.stated;
@@ -109,6 +131,16 @@ ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
     const bool is_true = claim.inequality.is_true(*left.value, *right.value);
     outcome.outcome = is_true ? Verdict::reproduced : Verdict::not_reproduced;
   }
+  return outcome;
+}
+
+// The outcome of a claim: undecided, with its figures, if they decide nothing here.
+ClaimOutcome outcome_of(const Claim& claim, std::span<const Results> runs) {
+  ClaimOutcome outcome = evaluated(claim, runs);
+  outcome.undecidable = undecidable(claim, runs);
+  if (outcome.undecidable.empty()) return outcome;
+  outcome.outcome = Verdict::undecided;
+  if (outcome.left && outcome.right) outcome.problem.clear();  // several machines decide no less than one
   return outcome;
 }
 
@@ -143,7 +175,7 @@ std::vector<SecondVerdict> second_verdicts(const Experiment& experiment, std::sp
     for (const Results& run : runs) estimated.push_back(with_estimated_times(run, gpu));
     for (const Claim& claim : experiment.claims) {
       if (!is_over_times(claim, runs)) continue;
-      const ClaimOutcome outcome = outcome_of(claim, estimated);
+      const ClaimOutcome outcome = evaluated(claim, estimated);
       verdicts.push_back({.claim = outcome.name,
                           .gpu = gpu,
                           .left = outcome.left,

@@ -97,7 +97,8 @@ void set_statistics(GpuCost& cost, const CompiledStage& stage) {
   };
   constexpr double pixels_of_a_wave = 64;
   cost.issue_clocks = figure("Inverse Throughput") / pixels_of_a_wave;
-  cost.instructions = figure("Instructions");
+  cost.instructions = figure(instructions_statistic);
+  cost.vertex_instructions = static_cast<int>(stage.vertex_instructions);
   cost.registers = figure("VGPRs");
   cost.waves = figure("Subgroups per SIMD");
   cost.shader_bytes = figure("Code size");

@@ -45,6 +45,7 @@ struct GpuCost {
   double bytes_from_memory = 0;  ///< of those, new to the pixel; and its output
   double loop_rounds = 1;        ///< of the loops that the compiler did not unroll
   int instructions = 0, registers = 0, waves = 0, shader_bytes = 0, scratch_bytes = 0;
+  int vertex_instructions = 0;  ///< of the vertex shader, which no cost above includes
   double compile_seconds = 0;
   std::optional<std::string> failure;  ///< why the estimate is missing; all figures are 0 then
 };

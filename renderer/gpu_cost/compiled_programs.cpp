@@ -141,13 +141,21 @@ vk::raii::Pipeline pipeline_of(const CompilingDevice& on, const SpirvProgram& pr
               .setRenderPass(*pass)};
 }
 
-// The number of the fragment stage among the pipeline's executables.
-std::uint32_t fragment_of(const CompilingDevice& on, const vk::raii::Pipeline& pipeline) {
+// A stage among the pipeline's executables.
+vk::PipelineExecutableInfoKHR executable_of(const CompilingDevice& on, const vk::raii::Pipeline& pipeline,
+                                            vk::ShaderStageFlagBits stage) {
   const auto all = on.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (all[i].stages & vk::ShaderStageFlagBits::eFragment) return i;
+    if (all[i].stages & stage) return {*pipeline, i};
   }
-  throw vulkan_error(on.name, "reports no fragment stage");
+  throw vulkan_error(on.name, "does not report the vertex and the fragment stage");
+}
+
+std::map<std::string, std::uint64_t> statistics_of(const CompilingDevice& on,
+                                                   const vk::PipelineExecutableInfoKHR& executable) {
+  std::map<std::string, std::uint64_t> statistics;
+  for (const auto& one : on.device.getPipelineExecutableStatisticsKHR(executable)) statistics[one.name] = one.value.u64;
+  return statistics;
 }
 
 // The wrapper lists the texts with their sizes; the driver fills them in where there is room.
@@ -200,10 +208,11 @@ CompiledStage compiled_on(const CompilingDevice& on, const SpirvProgram& program
   const vk::raii::Pipeline pipeline = pipeline_of(on, program);
   CompiledStage stage;
   stage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const vk::PipelineExecutableInfoKHR executable(*pipeline, fragment_of(on, pipeline));
-  for (const auto& one : on.device.getPipelineExecutableStatisticsKHR(executable))
-    stage.statistics[one.name] = one.value.u64;
-  stage.code = code_of(on, executable);
+  const auto fragment = executable_of(on, pipeline, vk::ShaderStageFlagBits::eFragment);
+  stage.statistics = statistics_of(on, fragment);
+  stage.vertex_instructions =
+      statistics_of(on, executable_of(on, pipeline, vk::ShaderStageFlagBits::eVertex))[instructions_statistic];
+  stage.code = code_of(on, fragment);
   return stage;
 }
 

@@ -17,9 +17,14 @@
 
 namespace footprint {
 
-/// What a driver reports about the compiled fragment stage (VK_KHR_pipeline_executable_properties).
+/// The driver's name of a stage's count of instructions.
+inline constexpr const char* instructions_statistic = "Instructions";
+
+/// What a driver reports about the compiled fragment stage, and in one figure about the vertex stage before it
+/// (VK_KHR_pipeline_executable_properties).
 struct CompiledStage {
   std::map<std::string, std::uint64_t> statistics;  ///< by the driver's names, such as "VGPRs"
+  std::uint64_t vertex_instructions = 0;            ///< of the vertex stage
   std::string code;                                 ///< ACO's intermediate code before register allocation
   double seconds = 0;                               ///< that the driver compiled both stages
 };

@@ -70,6 +70,19 @@ TEST_F(Driver, CountsEachFetchAtItsTexture) {
   }
 }
 
+// The vertex shader has its own count, which the fragment shader does not change.
+TEST_F(Driver, CountsTheVertexShaderByItself) {
+  const auto counted = [](const std::string& vertex_statements, const std::string& statements) {
+    const std::string vertex = "#version 450 core\nout vec4 place;\nvoid main() {\n  place = vec4(gl_VertexID);\n" +
+                               vertex_statements + "  gl_Position = place;\n}\n";
+    return compiler().compile(spirv_program("test", vertex.c_str(), fragment_text(statements))).vertex_instructions;
+  };
+  const std::uint64_t plain = counted("", "");
+  EXPECT_GT(plain, 0U);
+  EXPECT_EQ(counted("", repeated(8, "sum = textureLod(first, sum.xy, 0.0) + place;")), plain);
+  EXPECT_GE(counted(repeated(16, "place.x = fma(place.x, place.y, place.z);"), ""), plain + 16);
+}
+
 TEST_F(Driver, CountsGathers) {
   const ShaderWork work = work_of("  sum = textureGather(first, sum.xy, 0) + textureGather(first, sum.xy, 1);\n");
   EXPECT_EQ(work.straight.textures.at(0).gathers, 2);

@@ -62,6 +62,29 @@ TEST(CheckOutcomes, JunitCountsAndEscapes) {
   EXPECT_EQ(xml.find('\x01'), std::string::npos);
 }
 
+// A figure that decides nothing is no failure, whatever is expected; a missing figure is one.
+TEST(CheckOutcomes, WhatNothingHereDecidesIsSkipped) {
+  ExperimentReport timed = report();
+  timed.claims.back().outcome = Verdict::undecided;
+  EXPECT_THAT(timed.shortfalls(), SizeIs(2)) << "undecided for no reason";
+  timed.claims.back().undecidable = "timed on \"llvmpipe\"";
+  EXPECT_THAT(timed.shortfalls(), SizeIs(1));
+  const std::string xml = junit_xml(check_outcomes(timed));
+  EXPECT_TRUE(says(xml, "<testsuites tests=\"4\" failures=\"1\" skipped=\"1\">")) << xml;
+  EXPECT_TRUE(says(xml, "<testsuite name=\"mine\" tests=\"4\" failures=\"1\" skipped=\"1\">")) << xml;
+  EXPECT_TRUE(says(xml, "<skipped message=\"timed on &quot;llvmpipe&quot;\"/>")) << xml;
+  EXPECT_FALSE(says(github_annotations(check_outcomes(timed)), "claim bad"));
+  timed.claims.back().problem = "no record has this figure";
+  EXPECT_THAT(timed.shortfalls(), SizeIs(2));
+  EXPECT_FALSE(says(junit_xml(check_outcomes(timed)), "<skipped"));
+}
+
+TEST(CheckOutcomes, NothingIsExpectedOfAMachineThatDecides) {
+  ExperimentReport timed = report();
+  timed.claims.back().expect = Verdict::undecided;
+  EXPECT_THAT(timed.shortfalls(), SizeIs(1)) << "the threshold alone";
+}
+
 TEST(CheckOutcomes, AnnotationsAreOfWhatFellShort) {
   const std::string text = github_annotations(check_outcomes(report()));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);

@@ -100,18 +100,52 @@ std::string thresholds_html(const ExperimentReport& report) {
                      passed == all ? "" : " open", passed, all, html_table(thresholds_table(report)));
 }
 
-// The text of a claim, its figures, and the reason for its expected verdict.
-std::string claim_sentence(const ClaimOutcome& claim) {
-  return fmt::format("{}: {} {} Figures: {}. Expected to be {}: {}", claim.name, claim.text,
-                     claim.as_expected() ? "" : "NOT AS EXPECTED.", figures_text(claim), in_words(claim.expect),
-                     claim.reason);
+// The sides of a claim by estimated cost, a line per GPU that has an estimate.
+std::vector<std::string> estimate_lines(const ClaimOutcome& claim, const std::vector<SecondVerdict>& verdicts) {
+  std::vector<std::string> lines;
+  for (const SecondVerdict& verdict : verdicts) {
+    if (verdict.claim != claim.name || !verdict.left || !verdict.right) continue;
+    lines.push_back(fmt::format("Estimated for {}: {} against {}.", verdict.gpu, figure_text(verdict.left),
+                                figure_text(verdict.right)));
+  }
+  return lines;
+}
+
+// The text of a claim with its figures, estimates, why no figure decides it, and the reason for its expected verdict:
+// one line, or several if there is more than the usual two sentences.
+std::vector<std::string> claim_lines(const ClaimOutcome& claim, const std::vector<SecondVerdict>& verdicts) {
+  const std::string expected = fmt::format("Expected to be {}: {}", in_words(claim.expect), claim.reason);
+  std::vector<std::string> lines = estimate_lines(claim, verdicts);
+  if (!claim.undecidable.empty() && claim.undecidable != claim.reason)
+    lines.push_back(fmt::format("Undecided: {}.", claim.undecidable));
+  std::string first = fmt::format("{}: {} {} Figures: {}.", claim.name, claim.text,
+                                  claim.as_expected() ? "" : "NOT AS EXPECTED.", figures_text(claim));
+  if (lines.empty()) return {first + " " + expected};
+  lines.insert(lines.begin(), std::move(first));
+  lines.push_back(expected);
+  return lines;
+}
+
+// The same as an item of a Markdown list, whose further lines are indented.
+std::string claim_item(const ClaimOutcome& claim, const std::vector<SecondVerdict>& verdicts) {
+  std::string text;
+  for (const std::string& line : claim_lines(claim, verdicts))
+    text += (text.empty() ? "- " : "  ") + markdown_escaped(line) + "\n";
+  return text;
+}
+
+std::size_t undecidable_count(const std::vector<ClaimOutcome>& claims) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(claims, [](const ClaimOutcome& claim) { return !claim.undecidable.empty(); }));
 }
 
 std::string summary(const ExperimentReport& report) {
   const std::size_t failed = report.shortfalls().size(), checks = report.claims.size() + report.thresholds.size();
+  const std::size_t undecided = undecidable_count(report.claims);
   std::string text;
   if (checks > 0) text = fmt::format("All {} claims and thresholds are as expected.", checks);
   if (failed > 0) text = fmt::format("{} of {} claims and thresholds failed.", failed, checks);
+  if (undecided > 0) text.insert(text.size() - 1, fmt::format(", {} undecided", undecided));
   if (!report.quick) return text;
   if (!text.empty()) text += " ";
   return text + "Test run (--quick): smaller than the experiment, so this is not a measurement.";
@@ -144,14 +178,20 @@ std::string place_property(const std::string& place) {
 std::string test_case(const CheckOutcome& outcome) {
   const std::string head =
       fmt::format(R"(    <testcase classname="{}" name="{}")", xml_escaped(outcome.suite), xml_escaped(outcome.name));
-  if (outcome.failure.empty()) return head + "/>\n";
-  return head + fmt::format(">\n      <failure message=\"{0}\">{0}</failure>\n    </testcase>\n",
-                            xml_escaped(outcome.failure));
+  if (!outcome.failure.empty()) {
+    return head + fmt::format(">\n      <failure message=\"{0}\">{0}</failure>\n    </testcase>\n",
+                              xml_escaped(outcome.failure));
+  }
+  if (outcome.undecided.empty()) return head + "/>\n";
+  return head + fmt::format(">\n      <skipped message=\"{}\"/>\n    </testcase>\n", xml_escaped(outcome.undecided));
 }
 
-std::size_t failures_among(std::span<const CheckOutcome> outcomes) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(outcomes, [](const CheckOutcome& outcome) { return !outcome.failure.empty(); }));
+// The attributes of a suite, or of all: tests, failures and, where there are any, skipped tests.
+std::string junit_counts(std::span<const CheckOutcome> outcomes) {
+  const auto failed = std::ranges::count_if(outcomes, [](const CheckOutcome& o) { return !o.failure.empty(); });
+  const auto skipped = std::ranges::count_if(outcomes, [](const CheckOutcome& o) { return !o.undecided.empty(); });
+  const std::string counts = fmt::format(R"(tests="{}" failures="{}")", outcomes.size(), failed);
+  return skipped == 0 ? counts : counts + fmt::format(R"( skipped="{}")", skipped);
 }
 
 constexpr const char* baseline_schema = "footprint-baseline/1";
@@ -210,8 +250,7 @@ std::string experiment_markdown(const ExperimentReport& report) {
     text += markdown_section(table, 3);
     if (table.rows.empty() || table.heading != "Claims") continue;
     text += "\n";
-    for (const ClaimOutcome& claim : report.claims)
-      text += fmt::format("- {}\n", markdown_escaped(claim_sentence(claim)));
+    for (const ClaimOutcome& claim : report.claims) text += claim_item(claim, report.second_verdicts);
   }
   for (const std::string& line : report.shortfalls()) text += fmt::format("\n**Failed:** {}\n", markdown_escaped(line));
   return text;
@@ -230,7 +269,8 @@ std::string experiment_html(const ExperimentReport& report) {
   html += html_table(published_table(report)) + html_table(claims_table(report));
   if (!report.claims.empty()) html += "<ul>\n";
   for (const ClaimOutcome& claim : report.claims)
-    html += fmt::format("<li>{}</li>\n", html_escaped(claim_sentence(claim)));
+    html += fmt::format("<li>{}</li>\n",
+                        html_escaped(fmt::format("{}", fmt::join(claim_lines(claim, report.second_verdicts), " "))));
   if (!report.claims.empty()) html += "</ul>\n";
   return html + html_table(second_verdicts_table(report)) + thresholds_html(report) + "</section>\n";
 }
@@ -241,6 +281,7 @@ std::vector<CheckOutcome> check_outcomes(const ExperimentReport& report) {
     outcomes.push_back({.suite = report.name,
                         .name = "claim " + claim.name,
                         .failure = claim.as_expected() ? "" : shortfall_of(claim),
+                        .undecided = claim.as_expected() ? claim.undecidable : "",
                         .place = claim.place});
   }
   for (const ThresholdOutcome& threshold : report.thresholds) {
@@ -262,14 +303,12 @@ std::vector<std::string> shortfalls_of(std::span<const CheckOutcome> outcomes) {
 
 std::string junit_xml(std::span<const CheckOutcome> outcomes) {
   std::string xml =
-      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" failures=\"{}\">\n",
-                  outcomes.size(), failures_among(outcomes));
+      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {}>\n", junit_counts(outcomes));
   while (!outcomes.empty()) {
     const auto end = std::ranges::find_if(
         outcomes, [&](const CheckOutcome& outcome) { return outcome.suite != outcomes.front().suite; });
     const auto suite = outcomes.first(static_cast<std::size_t>(end - outcomes.begin()));
-    xml += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n", xml_escaped(suite.front().suite),
-                       suite.size(), failures_among(suite));
+    xml += fmt::format("  <testsuite name=\"{}\" {}>\n", xml_escaped(suite.front().suite), junit_counts(suite));
     for (const CheckOutcome& outcome : suite) xml += test_case(outcome);
     xml += "  </testsuite>\n";
     outcomes = outcomes.subspan(suite.size());

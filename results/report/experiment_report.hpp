@@ -23,10 +23,11 @@ namespace footprint {
 
 /// A claim, a threshold or a figure of a baseline.
 struct CheckOutcome {
-  std::string suite;    ///< the experiment
-  std::string name;     ///< "claim NAME", "threshold EXPRESSION"
-  std::string failure;  ///< how it fell short; empty: as it should be
-  std::string place{};  ///< FILE:LINE or FILE where it is written; empty: nowhere
+  std::string suite;        ///< the experiment
+  std::string name;         ///< "claim NAME", "threshold EXPRESSION"
+  std::string failure;      ///< how it fell short; empty: as it should be
+  std::string undecided{};  ///< why nothing here decides a claim, which is no failure; empty: it was decided
+  std::string place{};      ///< FILE:LINE or FILE where it is written; empty: nowhere
 };
 
 /// Claims, then thresholds.
@@ -36,7 +37,7 @@ struct CheckOutcome {
 [[nodiscard]] std::vector<std::string> shortfalls_of(std::span<const CheckOutcome> outcomes);
 
 /// A JUnit XML document with a test suite per experiment and a test case per outcome; outcomes of one suite are
-/// adjacent.
+/// adjacent. A claim that nothing here decides is a skipped test with its reason.
 [[nodiscard]] std::string junit_xml(std::span<const CheckOutcome> outcomes);
 
 /// One workflow command `::error ...::` per outcome that failed.

@@ -25,8 +25,28 @@ TEST(ExperimentSection, MeasuredIsNextToPublished) {
   const std::string text = experiment_markdown(*example_results().experiment);
   EXPECT_TRUE(says(text, "| Figure 4   | fps(toksvig)        |   125 fps |  400 fps |")) << text;
   EXPECT_TRUE(says(text, "300 s |      n/a | from the cache")) << text;
-  EXPECT_TRUE(says(text, "3 of 5 claims and thresholds failed. Test run")) << text;
+  EXPECT_TRUE(says(text, "3 of 6 claims and thresholds failed, 1 undecided. Test run")) << text;
   EXPECT_TRUE(says(text, "error(toksvig) = 0.01100 \\*; error(direct) = 0.02100")) << text;
+}
+
+// Such a claim is undecided in the table, and its sentence has the machine, the figures and the estimate.
+TEST(ExperimentSection, AClaimThatNothingHereDecidesSaysWhy) {
+  const ExperimentReport report = *example_results().experiment;
+  const std::string why = "Undecided: timed on llvmpipe, a software renderer.";
+  for (const std::string& text : {experiment_markdown(report), experiment_html(report)}) {
+    EXPECT_TRUE(says(text, "time(toksvig) = 4.00; time(direct) = 1.00")) << text;
+    EXPECT_TRUE(says(text, "Estimated for Steam Deck: 0.30000 against 0.60000.")) << text;
+    EXPECT_TRUE(says(text, why)) << text;
+    EXPECT_FALSE(says(text, "time: undecided, expected")) << text;
+  }
+  EXPECT_TRUE(says(experiment_markdown(report), "4.00 |    1.00 | undecided")) << experiment_markdown(report);
+}
+
+TEST(ExperimentSection, AReasonIsGivenOnce) {
+  ExperimentReport report = *example_results().experiment;
+  report.claims.back().undecidable = report.claims.back().reason = "no measure is printed";
+  const std::string text = experiment_markdown(report);
+  EXPECT_EQ(text.find("no measure is printed"), text.rfind("no measure is printed")) << text;
 }
 
 TEST(ExperimentSection, TextOfOthersIsEscaped) {

@@ -51,6 +51,7 @@ void fields(auto& archive, Is<GpuCost> auto& value) {
   archive("waves", value.waves);
   archive("shader_bytes", value.shader_bytes);
   archive("scratch_bytes", value.scratch_bytes);
+  archive("vertex_instructions", value.vertex_instructions);
   archive("compile_seconds", value.compile_seconds);
   archive("failure", value.failure);
 }
@@ -113,6 +114,7 @@ void fields(auto& archive, Is<ClaimOutcome> auto& value) {
   archive.derived("as_expected", value.as_expected());
   archive("reason", value.reason);
   archive("problem", value.problem);
+  archive("undecidable", value.undecidable);
   archive("left", value.left);
   archive("right", value.right);
   archive("figures", value.figures);

@@ -226,7 +226,7 @@ struct QuantityFigure {
 enum class Verdict {
   reproduced,
   not_reproduced,
-  undecided  ///< a figure is missing; never expected
+  undecided  ///< a figure is missing, or its figures decide nothing
 };
 
 /// As reports write it.
@@ -236,7 +236,7 @@ constexpr const auto& words_of(Verdict /*verdict*/) { return verdict_words; }
 /// Whose statement a claim is. Only a paper's own count as reproduced or not; the others are counted apart.
 enum class ClaimSource {
   paper,        ///< the paper says or shows it
-  gpu_time,     ///< the paper says it of times on a GPU, which frames of a software renderer cannot decide
+  gpu_time,     ///< the paper says it of times on a GPU; only a GPU of that class decides it
   closed_form,  ///< a formula of the paper, evaluated
   our_measure,  ///< the paper says it, but the measure, the setting or the limit is our choice
   ours          ///< no paper says it
@@ -272,13 +272,17 @@ struct ClaimOutcome {
   std::string inequality;
   Verdict expect = Verdict::reproduced;
   Verdict outcome = Verdict::undecided;
-  std::string reason;   ///< why that is expected
-  std::string problem;  ///< of an undecided one
+  std::string reason;         ///< why that is expected
+  std::string problem;        ///< which figure is missing; empty: none
+  std::string undecidable{};  ///< why its figures decide nothing here; empty: they decide it
   std::optional<double> left, right;
   std::vector<ClaimFigure> figures;
   std::string place{};  ///< FILE:LINE of the claim
 
-  [[nodiscard]] bool as_expected() const { return outcome == expect; }
+  /// Figures that decide nothing are no failure, missing ones are. `undecided` expects nothing of a GPU that decides.
+  [[nodiscard]] bool as_expected() const {
+    return problem.empty() && (outcome == expect || !undecidable.empty() || expect == Verdict::undecided);
+  }
 };
 
 /// A claim over times, decided by estimated cost in place of measured times (gpu-cost.md). It is never expected or

@@ -122,6 +122,21 @@ class Experiments(WholeRunTest):
         line = 1 + content[:content.index('"error(direct)"')].count("\n")
         self.assertRegex(output, rf"(?m)^::error file=.*read\.toml,line={line},title=read%3A threshold error\(direct\)::at most")
 
+    def test_times_of_a_gpu_are_undecided_on_a_software_renderer(self):
+        junit = self.folder / "undecided.xml"
+        claim = CLAIM.format("fps(direct) > 1e9", "reproduced")
+        content = HEAD + claim + 'source = "gpu_time"\ngpu_class = ["GeForce"]\n'
+        code, output, errors = self.check("gpu", content, "--junit", junit, "--github")
+        self.assertEqual((code, errors), (0, ""))
+        self.assertRegex(output, r"the_claim: .*Figures: fps\(direct\) = .*\n *Undecided: timed on .*, a software renderer")
+        self.assertIn("All 1 claims and thresholds are as expected, 1 undecided.", output)
+        self.assertNotIn("::error", output)
+        suites = xml.etree.ElementTree.parse(junit).getroot()
+        self.assertEqual((suites.get("failures"), suites.get("skipped")), ("0", "1"))
+        self.assertIn("a software renderer", suites.find(".//skipped").get("message"))
+        code, output, errors = self.check("gpu", HEAD + claim)
+        self.assertEqual(code, 1, "a claim of ours over the same time is decided")
+
     def test_a_baseline_is_written_on_request_passes_and_fails(self):
         baseline = self.folder / "baseline.json"
         code, _, errors = self.check("based", HEAD, "--baseline", baseline)

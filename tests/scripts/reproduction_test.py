@@ -43,6 +43,22 @@ class Tree(unittest.TestCase):
         return self.folder / "out"
 
 
+    def write_matrix(self, experiment, members, **claim):
+        """The results of a matrix of footprint filters; `claim` changes its one claim. Members have none."""
+        whole = results(0.01, 0.02)
+        whole["experiment"]["claims"][0].update(claim)
+        folder = self.write(experiment, {}) / experiment
+        (folder / "results.json").unlink()
+        for member, document in members.items():
+            document["experiment"]["claims"] = []
+            (folder / member).mkdir()
+            (folder / member / "results.json").write_text(json.dumps(document), encoding="utf-8")
+        whole["members"] = [{"folder": member, "footprint": member} for member in members]
+        (folder / "matrix.json").write_text(json.dumps({key: whole[key] for key in ("tool", "backend", "experiment", "members")}),
+                                            encoding="utf-8")
+        return folder.parent
+
+
 class Floors(Tree):
     def lines_of(self, document):
         done = script("reproduction", "--floors", self.write("e", document))
@@ -69,6 +85,16 @@ class Floors(Tree):
         document = results(0.01, 0.02, floor=0.001, inequality="error(a:x=1, frame=0) < error(b, distance=1)")
         document["records"].append({**record("b", 1, 1.0), "frame": 1, "distance": 2})
         self.assertEqual(self.lines_of(document)[0], 0)
+
+    def test_members_of_a_matrix_are_chosen_by_their_filter(self):
+        folder = self.write_matrix("e", {"trilinear": results(0.01, 0.02, floor=1.0), "box:2": results(0.01, 0.02, floor=0.001)},
+                                   inequality="error(a:x=1, footprint=box:2) < 0.5 * error(b, footprint=box:2)")
+        done = script("reproduction", "--floors", folder)
+        self.assertEqual((done.returncode, len(done.stdout.splitlines())), (0, 2), done.stdout + done.stderr)
+        other = json.loads((folder / "e/matrix.json").read_text(encoding="utf-8"))
+        other["experiment"]["claims"][0]["inequality"] = "error(a:x=1, footprint=trilinear) < 0.5 * error(b, footprint=box:2)"
+        (folder / "e/matrix.json").write_text(json.dumps(other), encoding="utf-8")
+        self.assertEqual(script("reproduction", "--floors", folder).returncode, 1)
 
     def test_what_is_no_measurement_is_refused(self):
         self.assertEqual(script("reproduction", "--floors", self.write("e", results(0.1, 0.2, quick=True))).returncode, 2)
@@ -161,6 +187,33 @@ class Document(Tree):
     def test_an_outcome_that_is_no_longer_expected_is_marked(self):
         text = self.rewritten(lambda content: content.replace('expect = "reproduced"', 'expect = "not_reproduced"'))
         self.assertIn("0.01 against 0.02 | reproduced; expected: not reproduced |", text)
+
+    def test_a_claim_that_is_now_expected_to_be_undecided_is_so(self):
+        text = self.rewritten(lambda content: content.replace('expect = "reproduced"', 'expect = "undecided"'))
+        self.assertIn("0.01 against 0.02 | undecided |", text)
+
+    def test_times_that_decide_nothing_are_undecided_with_their_estimates(self):
+        claim = tomllib.loads((SOURCE / "experiments/tan2005_fig5.toml").read_text(encoding="utf-8"))["claim"][0]
+        measured = {"name": claim["name"], "inequality": claim["inequality"], "left": 9, "right": 120, "outcome": "undecided"}
+        verdict = {"claim": claim["name"], "gpu": "RX 480", "left": 500, "right": 120, "outcome": "reproduced", "problem": ""}
+        none = verdict | {"gpu": "PS4", "left": None}
+        text = self.rewritten(lambda content: content, claims=[measured], second_verdicts=[verdict, none])
+        self.assertIn("| 9 against 120; RX 480, by estimate: 500 against 120 | undecided; expected: reproduced |", text)
+        self.assertNotIn("PS4", text)
+
+    def test_the_results_of_a_matrix_are_one_section(self):
+        claim = tomllib.loads((SOURCE / "experiments/tan2005_fig5.toml").read_text(encoding="utf-8"))["claim"][0]
+        members = {name: results(0.3, 0.4) for name in ("trilinear", "box:2")}
+        members["box:2"]["scene"]["warnings"].append("of one member")
+        shutil.rmtree(self.folder / "out")
+        out = self.write_matrix("tan2005_fig5", members, name=claim["name"], inequality=claim["inequality"])
+        done = script("reproduction", out, self.folder / "docs")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        page = (self.folder / "docs/results/reproduction/tan2005.md").read_text(encoding="utf-8")
+        section = page[page.index("### `tan2005_fig5`"):].split("\n### ")[0]
+        self.assertEqual(section.count("Warning: "), 2)
+        self.assertIn("0.01 against 0.02 | reproduced |", section)
+        self.assertEqual(self.faults(), [])
 
     def test_claims_are_counted_by_their_source(self):
         main = self.folder / "docs/results/reproduction.md"

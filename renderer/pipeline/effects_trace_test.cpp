@@ -84,6 +84,13 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.materials[0].anisotropy = Anisotropy{0.7F, 0.4F};
      }},
+    {Effect::anisotropy_variation, "stretch_map",
+     [](Scene& s) {
+       s.materials[0].metallic = 0.0F;
+       s.materials[0].metallic_roughness_map = map_of(halves(2, 0.4F, 0.4F));
+       s.materials[0].anisotropy = Anisotropy{0.0F, 0.0F};
+       s.materials[0].anisotropy_map = map_of(halves(2, 0.5F, -0.5F));
+     }},
     {Effect::base_color_variation, "base_color_map",
      [](Scene& s) {
        s.materials[0].metallic = 1.0F;

@@ -51,7 +51,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, Shader
   v.shared_coordinates = scene.shared_coordinates();
   v.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
   v.screen_derivatives = info.screen_derivatives && is_frame;
-  v.finest_coat = info.reads_finest_level && is_frame;
+  v.finest_maps = info.reads_finest_level && is_frame;
   if (v.environment == EnvironmentUse::sampled && !integrates_itself) v.environment = EnvironmentUse::prefiltered;
   v.sums_environment = info.sums_environment;
   v.environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0;
@@ -263,7 +263,8 @@ void GpuMethod::rebuild(const View& view, RecordedDraws* record) const {
 
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, SamplerState state) const {
   const PerBatch& part = batches_.at(batch.index);
-  auto unit = static_cast<GLuint>(batch.shared_textures.size());
+  GLuint unit = 0;
+  for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, state);
   for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, state);
   if (part.block.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.block.name());
 }
@@ -407,8 +408,6 @@ void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, cons
     if (texels_location >= 0)
       gl::api().Uniform3fv(texels_location, 1, glm::value_ptr(drawn_texels(method, batch, samples.texels)));
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
-    GLuint unit = 0;
-    for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, sampler_state_);
     method.bind(batch, scene, sampler_state_);
     if (environment_light) scene.environment()->bind(units, variant.environment);
     gl::api().BindVertexArray(method.vertex_array(batch));

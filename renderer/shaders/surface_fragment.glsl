@@ -61,6 +61,7 @@ vec3 seen_facet;  // of the pixel
 //? include clear_coat.glsl
 
 //? end
+//? include stretch_under.glsl if anisotropic_lobe and anisotropy_variation
 // The surface seen through a pixel or a part of it.
 struct SurfacePoint {
   Effective effective;
@@ -224,6 +225,7 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? end
   if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;  //? if unlit and material_index
   if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;          //? elif unlit
+  stretch = stretchUnder(f);  //? if anisotropic_lobe and anisotropy_variation
 //? if clear_coat
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo, coatUnder(f, wo));
 //? else

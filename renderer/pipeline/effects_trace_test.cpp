@@ -139,8 +139,8 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].alpha_cutoff = 0.5F;
      }},
     {Effect::unlit, "lobe_cutoff.z", [](Scene& s) { s.materials[0].unlit = true; }},
-    {Effect::emission, "emitted.rgb", [](Scene& s) { s.materials[0].emission = glm::vec3(0.5F); }},
-    {Effect::emission_variation, "emission_map",
+    {Effect::emission, "vec4 emitted;", [](Scene& s) { s.materials[0].emission = glm::vec3(0.5F); }},
+    {Effect::emission_variation, "emission_uv_linear",
      [](Scene& s) {
        s.materials[0].emission = glm::vec3(0.5F);
        s.materials[0].emission_map = map_of(halves(3, 1.0F, 0.25F));

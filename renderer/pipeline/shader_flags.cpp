@@ -97,6 +97,7 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"shared_coordinates", [](const Variant& v) { return v.shared_coordinates; }},
     {"surface_coordinates", [](const Variant& v) { return v.surface_coordinates; }},
     {"screen_derivatives", [](const Variant& v) { return v.screen_derivatives; }},
+    {"emitting", [](const Variant& v) { return v.emitting; }},
     {"finest_maps", [](const Variant& v) { return v.finest_maps; }},
     {"area_points", [](const Variant& v) { return has(v.effects, Effect::area_light) && v.lights[light_type::area_point] > 0; }},
     {"area_lobes", integrates_areas_by_lobes},

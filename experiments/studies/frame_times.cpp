@@ -55,6 +55,13 @@ void restart(std::optional<History>& history, const StagedMethod& method, View v
   }
 }
 
+// The image of a history, whose frames have no emitted light.
+Image picture_of_history(const History& history, const StagedMethod& method, const View& view) {
+  Image picture = history.image();
+  method.frames().add_emitted(picture, view);
+  return picture;
+}
+
 constexpr std::uint64_t curve_seed = 0x9e3779b97f4a7c15;  // keeps the curve's samples apart from the reference's
 
 constexpr int most_timed = 4;  // frames at once; more of them take as many times longer
@@ -184,7 +191,7 @@ Image image_of(const StagedMethod& method, const View& view) {
   if (method.history().frames == 0) return method.frames().render(view);
   std::optional<History> history;
   restart(history, method, view);
-  return history->image();
+  return picture_of_history(*history, method, view);
 }
 
 MethodFrames::MethodFrames(Stage& stage, const RunSettings& settings)
@@ -204,7 +211,7 @@ Image MethodFrames::render(std::size_t method, const std::vector<RunView>& views
   const bool goes_back = sequence.views < index;
   while (sequence.views < index) add_view(sequence, staged, stage_.move_to(views[sequence.views]));
   add_view(sequence, staged, goes_back ? stage_.move_to(views[index]) : view);
-  return sequence.history->image();
+  return picture_of_history(*sequence.history, staged, view);
 }
 
 std::vector<glm::dvec2> frame_offsets(int count, std::uint64_t seed) {

@@ -165,10 +165,10 @@ Grid exact_grid(const Material& material, const NdfSettings& settings, const Foo
                 NdfResults& results, const Progress& progress) {
   ProgressParts parts(progress, 2);
   const NormalDistribution distribution = material.brdf.distribution;
-  const ReferenceNdf exact(distribution, texels.facets, material.anisotropy);
+  const ReferenceNdf exact(distribution, texels.facets);
   const Lobe narrowest = exact.narrowest();
   const auto merged = [&](double part) {
-    return ReferenceNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)), material.anisotropy);
+    return ReferenceNdf(distribution, merged_facets(texels.facets, part * lobe_width(narrowest)));
   };
   results.lobe.narrowest = lobe_text(narrowest);
   results.grid.resolution = settings.resolution > 0 ? settings.resolution : resolution_for(narrowest);
@@ -292,6 +292,7 @@ Material with_lobe(Material material, const Lobe& lobe) {
   material.brdf.distribution = lobe.distribution;
   material.lobes.clear();
   material.anisotropy.reset();
+  material.anisotropy_map.reset();
   material.lobe_parameter = static_cast<float>(lobe.parameter);
   return material;
 }

@@ -152,6 +152,7 @@ vec4 normalAt(Effective e, vec2 uv) {
 Facets facetsAbout(Effective e, vec3 normal, vec2 uv) {
 //? if roughness_variation
   vec2 at = e.roughness.centre + e.roughness.turn * (uv - e.footprint.uv);
+  stretch = textureLod(stretch_map, at, 0.0).xy;  //? if anisotropy_variation
   return evenFacets(normal, lobeFromRoughness(textureLod(base_roughness, at, 0.0).r));
 //? else
   return evenFacets(normal, lobe_cutoff.x);

@@ -69,7 +69,7 @@ class NodeSums {
       const std::size_t row = static_cast<std::size_t>(j) * static_cast<std::size_t>(lattice_.nodes.x);
       for (int i = low.x; i <= high.x; ++i) {
         const std::size_t node = row + static_cast<std::size_t>(i);
-        if (facets_.anisotropy) {
+        if (!facets_.stretches.empty()) {
           sums[node] += weight * stretched(facet, normal, directions_[node]);
           continue;
         }
@@ -81,7 +81,7 @@ class NodeSums {
 
  private:
   [[nodiscard]] double stretched(std::size_t facet, const glm::dvec3& n, const glm::dvec3& direction) const {
-    return anisotropic_density(facets_.distribution, facets_.alphas(facet), facets_.anisotropy->rotation,
+    return anisotropic_density(facets_.distribution, facets_.alphas(facet), rotation_of_stretch(facets_.stretch(facet)),
                                turned_with_normal(direction, {-n.x, -n.y, n.z}));
   }
 

@@ -23,14 +23,17 @@ struct Facets {
   NormalDistribution distribution = NormalDistribution::blinn_phong;
   std::vector<glm::vec3> normals;  ///< unit, row by row; zero if invalid
   std::vector<float> parameters;   ///< lobe parameter of each facet, or one for all; of the round mean if anisotropic
-  std::optional<Anisotropy> anisotropy{};
+  std::vector<glm::vec2> stretches{};  ///< of each facet, or one for all (stretch_of); empty: all are round
 
   [[nodiscard]] bool is_valid(std::size_t i) const { return normals[i] != glm::vec3(0.0F); }
   [[nodiscard]] Lobe lobe(std::size_t i) const {
     return {distribution, static_cast<double>(parameters[parameters.size() == 1 ? 0 : i])};
   }
+  [[nodiscard]] glm::dvec2 stretch(std::size_t i) const {
+    return stretches.empty() ? glm::vec2(0.0F) : stretches[stretches.size() == 1 ? 0 : i];
+  }
   /// The widths of an anisotropic facet.
-  [[nodiscard]] Alphas alphas(std::size_t i) const { return alphas_of_round(anisotropy->strength, lobe(i).parameter); }
+  [[nodiscard]] Alphas alphas(std::size_t i) const { return alphas_of_stretch(lobe(i).parameter, stretch(i)); }
 };
 
 /// The facets of a material. `rough`: with the roughness texels above; none unless these lie on the normal map's.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 
 #include "renderer/bake/material_maps.hpp"
@@ -40,23 +41,35 @@ double core_width(const Lobe& lobe) {
   return lobe.distribution == NormalDistribution::ggx ? 0.5 * lobe.parameter : lobe_width(lobe);
 }
 
-// Round lobes; of anisotropic ones those of the width across and along.
+// Of anisotropic lobes the round ones of the width across and along.
 struct Extremes {
   Lobe narrowest, widest;
 };
 
 Extremes extremes_of(const Facets& facets) {
-  Extremes found{facets.lobe(0), facets.lobe(0)};
-  for (std::size_t i = 1; i < facets.parameters.size(); ++i) {
-    const Lobe lobe = facets.lobe(i);
-    if (lobe_width(lobe) < lobe_width(found.narrowest)) found.narrowest = lobe;
-    if (lobe_width(lobe) > lobe_width(found.widest)) found.widest = lobe;
+  const auto widths = [&](std::size_t i) {
+    if (facets.stretches.empty()) return Extremes{facets.lobe(i), facets.lobe(i)};
+    const auto [along, across] = facets.alphas(i);
+    return Extremes{{facets.distribution, across}, {facets.distribution, along}};
+  };
+  Extremes found = widths(0);
+  for (std::size_t i = 1; i < std::max(facets.parameters.size(), facets.stretches.size()); ++i) {
+    const auto [narrow, wide] = widths(i);
+    if (lobe_width(narrow) < lobe_width(found.narrowest)) found.narrowest = narrow;
+    if (lobe_width(wide) > lobe_width(found.widest)) found.widest = wide;
   }
-  if (!facets.anisotropy) return found;
-  const double strength = facets.anisotropy->strength;
-  found.narrowest.parameter = alphas_of_round(strength, found.narrowest.parameter).across;
-  found.widest.parameter = alphas_of_round(strength, found.widest.parameter).along;
   return found;
+}
+
+// One per texel of the roughness map, or of a grid over the same area with these sides.
+std::vector<glm::vec2> stretches_of(const Material& material, int width, int height) {
+  if (!material.anisotropy) return {};
+  Image map = stretch_map_of(material);
+  if (map.texel_count() > 1) map = nearest_texels(map, width, height);
+  std::vector<glm::vec2> out;
+  out.reserve(map.texel_count());
+  for (std::size_t i = 0; i < map.texel_count(); ++i) out.push_back(glm::make_vec2(&map.texels[2 * i]));
+  return out;
 }
 
 }  // namespace
@@ -68,7 +81,7 @@ std::optional<Facets> facets_of(const Material& material, bool rough) {
                 .distribution = material.brdf.distribution,
                 .normals = unit_normals(normals),
                 .parameters = {static_cast<float>(lobe_of(material).parameter)},
-                .anisotropy = material.anisotropy};
+                .stretches = stretches_of(material, 1, 1)};
   if (!rough) return facets;
   const Image parameters = lobe_parameter_map_of(material);
   if (parameters.texel_count() == 1) {
@@ -77,6 +90,7 @@ std::optional<Facets> facets_of(const Material& material, bool rough) {
   }
   if (!roughness_lies_on_normals(material)) return {};
   facets.parameters = nearest_texels(parameters, normals.width, normals.height).texels;
+  facets.stretches = stretches_of(material, normals.width, normals.height);
   return facets;
 }
 

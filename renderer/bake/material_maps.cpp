@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "renderer/image/mipmap.hpp"
 
@@ -34,6 +36,38 @@ Image one_channel_of(const std::optional<TextureMap>& map, float constant) {
   return map ? map->image.decoded() : Image(1, 1, 1, constant);
 }
 
+// The roughness of each texel of width_map, before it is stretched.
+Image own_roughness(const Material& material) {
+  Image roughness = one_channel(width_map(material)->image.decoded(), 0);
+  if (!material.lobe_parameter_map) return roughness;
+  std::ranges::transform(roughness.texels, roughness.texels.begin(), [&](float parameter) {
+    return lobe_roughness({material.brdf.distribution, parameter});
+  });
+  return roughness;
+}
+
+double own_alpha(const Material& material, float roughness) {
+  return lobe_from_alpha(material.brdf.distribution, roughness * roughness).parameter;
+}
+
+// The anisotropy of each texel of width_map.
+class Stretching {
+ public:
+  explicit Stretching(const Material& material) : constant_(material.anisotropy.value_or(Anisotropy{})) {
+    if (material.anisotropy_map) axes_ = material.anisotropy_map->image.decoded();
+  }
+
+  [[nodiscard]] Anisotropy at(std::size_t texel) const {
+    if (axes_.texels.empty()) return constant_;
+    const glm::vec2 axis = glm::make_vec2(&axes_.texels[2 * texel]);
+    return {std::sqrt(std::min(glm::length(axis), 1.0F)), static_cast<float>(rotation_of_stretch(axis))};
+  }
+
+ private:
+  Anisotropy constant_;
+  Image axes_;
+};
+
 }  // namespace
 
 Image normal_map_of(const Material& material) { return normals_or_flat(material.normal_map); }
@@ -42,23 +76,33 @@ Image layer_map_of(const Material& material) { return normals_or_flat(material.l
 
 Image roughness_map_of(const Material& material) {
   const NormalDistribution distribution = material.brdf.distribution;
-  if (const TextureMap* map = width_map(material); map != nullptr) {
-    Image roughness = one_channel(map->image.decoded(), 0);
-    if (material.lobe_parameter_map) {
-      std::ranges::transform(roughness.texels, roughness.texels.begin(), [&](float parameter) {
-        return lobe_roughness({distribution, parameter});
-      });
-    }
-    if (material.anisotropy) {
-      std::ranges::transform(roughness.texels, roughness.texels.begin(), [&](float across) {
-        const Lobe own = lobe_from_alpha(distribution, across * across);
-        return lobe_roughness({distribution, round_alpha(alphas_of(material, own.parameter))});
-      });
+  if (width_map(material) != nullptr) {
+    Image roughness = own_roughness(material);
+    if (!material.anisotropy) return roughness;
+    const Stretching anisotropy(material);
+    for (std::size_t i = 0; i < roughness.texel_count(); ++i) {
+      const Alphas alphas = anisotropic_alphas(anisotropy.at(i).strength, own_alpha(material, roughness.texels[i]));
+      roughness.texels[i] = lobe_roughness({distribution, round_alpha(alphas)});
     }
     return roughness;
   }
   const bool own_lobe = material.lobe_parameter || !material.lobes.empty() || material.anisotropy;
   return Image(1, 1, 1, own_lobe ? lobe_roughness(lobe_of(material)) : material.roughness);
+}
+
+Image stretch_map_of(const Material& material) {
+  if (!material.anisotropy) return Image(1, 1, 2, 0.0F);
+  const Stretching anisotropy(material);
+  const bool constant = width_map(material) == nullptr;
+  const Image across = constant ? Image(1, 1, 1) : own_roughness(material);
+  Image out(across.width, across.height, 2);
+  for (std::size_t i = 0; i < out.texel_count(); ++i) {
+    const auto [strength, rotation] = anisotropy.at(i);
+    const double alpha = constant ? alphas_of(material).across : own_alpha(material, across.texels[i]);
+    const glm::vec2 stretch(stretch_of(anisotropic_alphas(strength, alpha), rotation));
+    std::copy_n(&stretch.x, 2, &out.texels[2 * i]);
+  }
+  return out;
 }
 
 Image lobe_parameter_map_of(const Material& material) {
@@ -152,9 +196,10 @@ TextureCoordinates share_coordinates(const Material& m) {
 }
 
 std::span<const SharedMap> shared_maps() {
-  static constexpr std::array<SharedMap, 9> maps{
+  static constexpr std::array<SharedMap, 10> maps{
       {{Effect::base_color_variation, "base_color_map", base_color_map_of, base_color_coordinates},
        {Effect::metallic_variation, "metallic_map", metallic_map_of, roughness_coordinates},
+       {Effect::anisotropy_variation, "stretch_map", stretch_map_of, roughness_coordinates},
        {Effect::specular_variation, "specular_map", specular_map_of, specular_coordinates},
        {Effect::coat_weight_variation, "coat_weight_map", coat_weight_map_of, coat_weight_coordinates},
        {Effect::coat_width_variation, "coat_width_map", coat_width_map_of, coat_width_coordinates},

@@ -23,7 +23,11 @@ namespace footprint {
 /// (`lobe_of`).
 [[nodiscard]] Image roughness_map_of(const Material& material);
 
-/// The lobe parameters of that map, given or converted from roughness; one channel.
+/// The stretches of a material's lobes (stretch_of), 2 channels, one for each texel of roughness_map_of; 0 if they are
+/// round.
+[[nodiscard]] Image stretch_map_of(const Material& material);
+
+/// The lobe parameters of roughness_map_of, given or converted from roughness; one channel.
 [[nodiscard]] Image lobe_parameter_map_of(const Material& material);
 
 /// The base-colour map, RGBA; without one: white, 1 x 1.

@@ -78,7 +78,7 @@ struct MethodInfo {
   /// The module receives screen-space differences of frame and half vector (renderer/shaders/README.md). They cost
   /// other methods nothing.
   bool screen_derivatives = false;
-  bool reads_finest_level = false;  ///< a frame filters nothing, so clear coats are read at their finest level too
+  bool reads_finest_level = false;  ///< a frame filters nothing: coats and stretches are of the finest level, too
   bool draws_directions = false;    ///< the module integrates an environment itself when it is supersampled
   bool lobes_as_given = false;      ///< its option `storage` does not round lobes (storage_range_note)
   bool sums_environment = false;    ///< the module sums a frame's environment light (`environmentSum`)

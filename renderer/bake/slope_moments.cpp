@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <string>
 #include <utility>
 
@@ -21,23 +22,21 @@ constexpr int moment_channels = 5;
 constexpr std::size_t weight_channel = 5;
 
 // Of the base lobe whose round mean has a slope variance, in the tangent frame of the surface. 0 stays 0.
-glm::dmat2 base_covariance(double variance, const Anisotropy& anisotropy) {
-  if (variance <= 0.0 || anisotropy.strength == 0.0F) return glm::dmat2(variance);
-  const Alphas alphas = alphas_of_round(anisotropy.strength, std::sqrt(2.0 * variance));
-  const double across = 0.5 * alphas.across * alphas.across, rotation = anisotropy.rotation;
-  const glm::dvec2 direction(std::cos(rotation), std::sin(rotation));
-  return glm::dmat2(across) + (0.5 * alphas.along * alphas.along - across) * glm::outerProduct(direction, direction);
+glm::dmat2 base_covariance(double variance, const glm::dvec2& stretch) {
+  return variance * glm::dmat2(1.0 + stretch.x, stretch.y, stretch.y, 1.0 - stretch.x);
 }
 
 // B, M and the weight of every texel; nothing but zeros where the weight is 0.
-Image texel_moments(const Image& normals, const Image& variance, double steepest, const Anisotropy& anisotropy) {
+Image texel_moments(const Image& normals, const Image& variance, double steepest, const Image& stretch) {
   Image out(normals.width, normals.height, moment_channels + 1);
   const std::size_t variance_step = variance.texel_count() == 1 ? 0 : 1;
+  const std::size_t stretch_step = stretch.texel_count() == 1 ? 0 : 2;
   for (std::size_t i = 0; i < out.texel_count(); ++i) {
     const float* const n = &normals.texels[4 * i];
     if (n[3] <= 0.0F) continue;
     const glm::dvec2 b = slope_of(glm::normalize(glm::dvec3(n[0], n[1], n[2])), steepest);
-    const glm::dmat2 v = base_covariance(variance.texels[i * variance_step], anisotropy);
+    const glm::dmat2 v = base_covariance(variance.texels[i * variance_step],
+                                         glm::dvec2(glm::make_vec2(&stretch.texels[i * stretch_step])));
     float* const to = &out.texels[i * (weight_channel + 1)];
     to[slope_x] = static_cast<float>(b.x);
     to[slope_y] = static_cast<float>(b.y);
@@ -140,7 +139,7 @@ glm::dmat2 covariance(const SlopeMoments& moments) {
 }
 
 std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance, double steepest,
-                                      const Anisotropy& anisotropy) {
+                                      const Image& stretch) {
   if (variance.texel_count() != 1 && (variance.width != normals.width || variance.height != normals.height)) {
     throw Error(
         ErrorKind::usage, "slope moments",
@@ -149,7 +148,7 @@ std::vector<Image> slope_moment_chain(const Image& normals, const Image& varianc
                     variance.width, variance.height, normals.width, normals.height),
         "use roughness=stretched or roughness=shading, or give both maps one size");
   }
-  return channels_of(weighted_mip_chain(texel_moments(normals, variance, steepest, anisotropy)),
+  return channels_of(weighted_mip_chain(texel_moments(normals, variance, steepest, stretch)),
                      {slope_x, slope_y, slope_xx, slope_xy, slope_yy});
 }
 
@@ -198,8 +197,8 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     Image normals = normal_map_of(material);
     if (normals.texel_count() == 1) normals = nearest_texels(normals, variance.width, variance.height);
     note_steep_texels(normals, "normal map", steepest, out);
-    const std::vector<Image> moments =
-        slope_moment_chain(normals, variance, steepest, material.anisotropy.value_or(Anisotropy{}));
+    const Image stretch = in_moments ? stretch_map_of(material) : Image(1, 1, 2, 0.0F);
+    const std::vector<Image> moments = slope_moment_chain(normals, variance, steepest, stretch);
     add_textures("slope", moments, stored.mean_normal ? mean_normal_chain(std::move(normals)) : std::vector<Image>(),
                  stored.variant, storage, normal_coordinates(material), out);
   }

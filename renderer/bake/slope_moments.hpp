@@ -41,10 +41,11 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 /// `variance`: slope variance per axis that is added to M before filtering (base roughness). One channel, of the size
 /// of the normals or 1 x 1; another size throws Error (usage).
 /// `steepest`: the limit of slopes.
-/// `anisotropy`: how the base lobe is stretched; `variance` is that of its round mean.
+/// `stretch`: of the base lobe, whose round mean has `variance` (stretch_map_of); two channels, of the size of
+/// `variance` or 1 x 1.
 [[nodiscard]] std::vector<Image> slope_moment_chain(const Image& normals, const Image& variance,
                                                     double steepest = steepest_slope,
-                                                    const Anisotropy& anisotropy = {});
+                                                    const Image& stretch = Image(1, 1, 2, 0.0F));
 
 /// Copies some channels of every level, in the given order.
 [[nodiscard]] std::vector<Image> channels_of(const std::vector<Image>& chain, const std::vector<int>& channels);

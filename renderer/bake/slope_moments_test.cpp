@@ -24,6 +24,18 @@ SlopeMoments moments_at(const Image& level, int x = 0, int y = 0) {
 }
 
 // Golden: B, Sigma + 1/s and its determinant for exponent 100, the roughness in the moments or added to the covariance.
+// Half the texels have lobes brushed along x, half along y, of different widths.
+TEST(SlopeMoments, IncludeTheCovarianceOfStretchedLobes) {
+  Image variance(2, 1, 1), stretch(2, 1, 2);
+  variance.texels = {0.02F, 0.05F};
+  stretch.texels = {0.5F, 0.25F, -0.75F, 0.5F};
+  const SlopeMoments m = moments_at(
+      slope_moment_chain(constant_normals(2, 1, {0.0F, 0.0F, 1.0F}), variance, steepest_slope, stretch).back());
+  EXPECT_NEAR(m.second[0][0], 0.5 * (0.02 * 1.5 + 0.05 * 0.25), 1e-8);
+  EXPECT_NEAR(m.second[1][1], 0.5 * (0.02 * 0.5 + 0.05 * 1.75), 1e-8);
+  EXPECT_NEAR(m.second[0][1], 0.5 * (0.02 * 0.25 + 0.05 * 0.5), 1e-8);
+}
+
 TEST(SlopeMoments, FourTexelsMeetTheGoldenVector) {
   for (const bool in_moments : {false, true}) {
     const Image variance(1, 1, 1, in_moments ? 0.01F : 0.0F);

@@ -113,6 +113,8 @@ Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFil
   const EngineMaps engine = index < bake.engine.size() ? bake.engine[index] : EngineMaps();
   const EffectSet effects = bake.effects & bake.baked.method->info.honours;
   std::vector<std::string> notes = prefiltered.notes;
+  if (material.anisotropy_map && has(effects, Effect::anisotropic_lobe))
+    notes.emplace_back("its anisotropy varies, and `lobe_anisotropy` is the mean");
   if (!engine.missing.empty()) notes.push_back(engine.missing);
   return {{"name", material.name},
           {"surface", surface_json(material, bake.effects)},

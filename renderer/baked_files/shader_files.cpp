@@ -15,7 +15,8 @@ namespace {
 ShaderVariant variant_of(const BakeToFiles& bake) {
   std::size_t most_lobes = 1;
   for (const Material& material : bake.scene.materials) most_lobes = std::max(most_lobes, material.lobes.size());
-  return {.effects = bake.effects & bake.baked.method->info.honours,
+  const EffectSet given = all_effects_but({Effect::anisotropy_variation});  // the material's uniforms have its mean
+  return {.effects = bake.effects & bake.baked.method->info.honours & given,
           .brdf = bake.scene.materials.front().brdf,
           .footprint = bake.footprint,
           .horizon_open = bake.scene.horizon == Horizon::open,

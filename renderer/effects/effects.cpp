@@ -62,9 +62,18 @@ bool reflects_diffusely(const Material& m) {
   return m.brdf.diffuse && albedo && (m.metallic < 1.0F || metallic_map(m) != nullptr);
 }
 
-bool roughness_varies(const Material& m) {
-  return width_map(m) != nullptr && channel_varies(width_map(m)->image.decoded(), 0);
+bool anisotropy_varies(const Material& m) {
+  if (!m.anisotropy_map || width_map(m) == nullptr) return false;
+  const Image axes = m.anisotropy_map->image.decoded();
+  return channel_varies(axes, 0) || channel_varies(axes, 1);
 }
+
+// A map of stretches changes the width of the round mean, too.
+bool roughness_varies(const Material& m) {
+  return width_map(m) != nullptr && (channel_varies(width_map(m)->image.decoded(), 0) || anisotropy_varies(m));
+}
+
+bool is_stretched(const Material& m) { return m.anisotropy && (m.anisotropy->strength > 0.0F || anisotropy_varies(m)); }
 
 bool metallic_varies(const Material& m) {
   return metallic_map(m) != nullptr && channel_varies(metallic_map(m)->image.decoded(), 1);
@@ -95,8 +104,9 @@ constexpr auto material_effects = std::to_array<MaterialEffect>(
       "roughness is constant over each material"},
      {Effect::multi_lobe, [](const Material& m) { return !m.lobes.empty(); },
       "facets with lobes about axes of their own", "every facet has one lobe, about its normal"},
-     {Effect::anisotropic_lobe, [](const Material& m) { return m.anisotropy && m.anisotropy->strength > 0.0F; },
-      "a lobe that is wider along one direction", "every lobe is round"},
+     {Effect::anisotropic_lobe, is_stretched, "a lobe that is wider along one direction", "every lobe is round"},
+     {Effect::anisotropy_variation, anisotropy_varies, "a map of anisotropy that varies",
+      "anisotropy is constant over each material"},
      {Effect::base_color_variation, [](const Material& m) { return m.base_color_map.has_value(); }, "a base-colour map",
       "no base-colour map"},
      {Effect::metallic_variation, metallic_varies, "a metallic map that varies",

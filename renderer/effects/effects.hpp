@@ -23,6 +23,7 @@ enum class Effect : std::size_t {
   roughness_variation,    ///< a map of roughness or of lobe parameters that is not constant
   multi_lobe,             ///< facets with several lobes, or one whose axis is not their normal
   anisotropic_lobe,       ///< facets with a lobe that is wider along one direction
+  anisotropy_variation,   ///< a map of how that lobe is stretched that is not constant
   base_color_variation,   ///< a base-colour map
   vertex_color,           ///< vertex colours, which multiply the base colour
   metallic_variation,     ///< a metallic map that is not constant

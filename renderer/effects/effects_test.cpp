@@ -107,6 +107,20 @@ TEST(Effects, LobeParameterMapsCountWhereTheyVary) {
   EXPECT_TRUE(on(scene, Effect::multi_lobe));
 }
 
+TEST(Effects, MapsOfAnisotropyCountWhereTheyVary) {
+  Scene scene = plain_scene();
+  scene.materials[0].metallic_roughness_map = map_of(Image(2, 1, 2, 0.5F));
+  scene.materials[0].anisotropy = Anisotropy{0.0F, 0.0F};
+  Image axes(2, 1, 2, 0.0F);
+  scene.materials[0].anisotropy_map = map_of(axes);
+  for (const Effect effect : {Effect::anisotropic_lobe, Effect::anisotropy_variation, Effect::roughness_variation})
+    EXPECT_FALSE(on(scene, effect));
+  axes.texels = {0.0F, 0.4F, 0.0F, -0.4F};  // axes across each other: the mean is round
+  scene.materials[0].anisotropy_map = map_of(axes);
+  for (const Effect effect : {Effect::anisotropic_lobe, Effect::anisotropy_variation, Effect::roughness_variation})
+    EXPECT_TRUE(on(scene, effect));
+}
+
 TEST(Effects, SpecularMapsCountWhereTheyVaryInAnyChannel) {
   Scene scene = plain_scene();
   Image map(1, 2, 3, 0.5F);

@@ -26,12 +26,14 @@ TEST(AnisotropicLobe, IsRecoveredFromItsRoundMean) {
   for (const double strength : {0.0, 0.1, 0.5, 0.9, 1.0}) {
     for (const double alpha : {0.001, 0.02, 0.3, 1.0}) {
       const Alphas alphas = anisotropic_alphas(strength, alpha);
-      const Alphas recovered = alphas_of_round(strength, round_alpha(alphas));
+      const Alphas recovered = alphas_of_stretch(round_alpha(alphas), stretch_of(alphas, 0.4));
       EXPECT_NEAR(recovered.across / alphas.across, 1.0, 1e-9) << strength << " " << alpha;
       EXPECT_NEAR(recovered.along / alphas.along, 1.0, 1e-9) << strength << " " << alpha;
     }
   }
-  EXPECT_EQ(alphas_of_round(1.0, 0.5).across, smallest_alpha);  // no lobe of that strength is so narrow
+  EXPECT_EQ(alphas_of_stretch(0.5, {0.0, -1.0}).across, smallest_alpha);
+  EXPECT_NEAR(rotation_of_stretch(stretch_of({0.5, 0.2}, 0.7)), 0.7, 1e-12);
+  EXPECT_EQ(stretch_of({0.3, 0.3}, 0.7), glm::dvec2(0.0));
 }
 
 // The projected area of the facets, by rings of equal steps in the logarithm of tan.

@@ -208,13 +208,17 @@ double round_alpha(const Alphas& alphas) {
   return std::sqrt(0.5 * (alphas.along * alphas.along + alphas.across * alphas.across));
 }
 
-Alphas alphas_of_round(double strength, double round) {
-  // along = q + p across in along^2 + across^2 = 2 round^2.
-  const double q = strength * strength, p = 1.0 - q;
-  const double norm = 1.0 + p * p;
-  const double across = (std::sqrt(std::max(2.0 * norm * round * round - q * q, 0.0)) - p * q) / norm;
-  return anisotropic_alphas(strength, std::max(across, smallest_alpha));
+glm::dvec2 stretch_of(const Alphas& alphas, double rotation) {
+  const double along2 = alphas.along * alphas.along, across2 = alphas.across * alphas.across;
+  return (along2 - across2) / (along2 + across2) * glm::dvec2(std::cos(2.0 * rotation), std::sin(2.0 * rotation));
 }
+
+Alphas alphas_of_stretch(double round, const glm::dvec2& stretch) {
+  const double r = std::min(glm::length(stretch), 1.0);
+  return {round * std::sqrt(1.0 + r), std::max(round * std::sqrt(1.0 - r), smallest_alpha)};
+}
+
+double rotation_of_stretch(const glm::dvec2& stretch) { return 0.5 * std::atan2(stretch.y, stretch.x); }
 
 double anisotropic_density(NormalDistribution distribution, const Alphas& alphas, double rotation,
                            const glm::dvec3& own) {

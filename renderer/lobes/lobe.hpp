@@ -135,10 +135,17 @@ struct Alphas {
 /// The round lobe with the mean slope variance of both directions: alpha^2 is the mean of both squares.
 [[nodiscard]] double round_alpha(const Alphas& alphas);
 
-/// The inverse of round_alpha for one strength: a map of round lobes has the anisotropic ones in it. Matches
-/// facetAlphas in anisotropic_facets.glsl. round: alpha of the round lobe; smaller ones than the strength allows give
-/// `smallest_alpha` across.
-[[nodiscard]] Alphas alphas_of_round(double strength, double round);
+/// The stretch of a lobe: r (cos 2 phi, sin 2 phi) with r = (along^2 - across^2) / (along^2 + across^2) and the
+/// rotation phi. The lobe's slopes have the covariance round^2 / 2 (1 + x, y; y, 1 - x), so that means of stretches
+/// make sense. rotation: as in Anisotropy.
+[[nodiscard]] glm::dvec2 stretch_of(const Alphas& alphas, double rotation);
+
+/// The inverse of stretch_of and round_alpha. Matches facetAlphas in anisotropic_facets.glsl.
+/// round: alpha of the round lobe. stretch: of length 0 to 1.
+[[nodiscard]] Alphas alphas_of_stretch(double round, const glm::dvec2& stretch);
+
+/// The rotation of a stretch, -pi / 2 to pi / 2.
+[[nodiscard]] double rotation_of_stretch(const glm::dvec2& stretch);
 
 /// The density of normals of an anisotropic facet, 1/sr (Heitz 2014, section 5). Matches baseDensity in
 /// anisotropic_facets.glsl.

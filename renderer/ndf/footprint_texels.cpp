@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -111,18 +113,21 @@ Alignment alignment(const Material& material) {
 }
 
 // The facet of a texel of each map; share 0 if the texel has no normal.
-// parameters: of lobes, one per texel of the roughness map.
-WeightedFacet facet_of(const Image& normals, const Image& parameters, const Stretch& column, const Stretch& row,
-                       double area) {
+// parameters, stretches: of lobes, one per texel of the roughness map.
+WeightedFacet facet_of(const Image& normals, const Image& parameters, const Image& stretches, const Stretch& column,
+                       const Stretch& row, double area) {
   const auto texel = normals.at(column.normal, row.normal);
   const glm::dvec3 normal(texel[0], texel[1], texel[2]);
   const double length = glm::length(normal);
   const bool valid = texel[3] >= 0.5F && std::isfinite(length) && length >= shortest_normal;
   if (!valid) return {};
-  return {normal / length, parameters.at(column.roughness, row.roughness)[0], column.length * row.length / area};
+  return {normal / length, parameters.at(column.roughness, row.roughness)[0], column.length * row.length / area,
+          glm::dvec2(glm::make_vec2(stretches.at(column.roughness, row.roughness).data()))};
 }
 
-auto order_of(const WeightedFacet& f) { return std::tie(f.parameter, f.normal.x, f.normal.y, f.normal.z); }
+auto order_of(const WeightedFacet& f) {
+  return std::tie(f.parameter, f.stretch.x, f.stretch.y, f.normal.x, f.normal.y, f.normal.z);
+}
 
 // Merges equal facets. The sort orders all but equal facets, and their shares are added in order of size, so that the
 // sum does not depend on threads.
@@ -242,6 +247,8 @@ void check_footprint(const FootprintRect& rect, const std::string& place) {
 
 FootprintTexels texels_under(const Material& material, const FootprintRect& rect) {
   const Image normals = normal_map_of(material), parameters = lobe_parameter_map_of(material);
+  const Image lobe_stretches =
+      material.anisotropy ? stretch_map_of(material) : Image(parameters.width, parameters.height, 2, 0.0F);
   const Alignment aligned = alignment(material);
   const std::array<Wrap, 2> normal_wrap = normal_coordinates(material).wrap;
   const std::array<Wrap, 2> roughness_wrap = roughness_coordinates(material).wrap;
@@ -262,7 +269,7 @@ FootprintTexels texels_under(const Material& material, const FootprintRect& rect
   out.facets.reserve(columns.size() * rows.size());
   for (const Stretch& row : rows) {
     for (const Stretch& column : columns) {
-      const WeightedFacet facet = facet_of(normals, parameters, column, row, area);
+      const WeightedFacet facet = facet_of(normals, parameters, lobe_stretches, column, row, area);
       if (facet.share > 0.0) out.facets.push_back(facet);
     }
   }
@@ -285,27 +292,31 @@ MappedFootprint roughness_footprint(const Material& material, const FootprintRec
 }
 
 std::vector<WeightedFacet> merged_facets(const std::vector<WeightedFacet>& facets, double spacing) {
-  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  using Cell = std::array<std::int64_t, 5>;
   const auto cell_of = [&](const WeightedFacet& f) {
-    constexpr double buckets_an_octave = 16.0;
+    constexpr double buckets_an_octave = 16.0, stretches_of_a_unit = 64.0;
     // Lambert's disc stretches distances by at most 2.
     const glm::dvec2 on_disc = glm::dvec2(f.normal) / std::sqrt(std::max(1.0 + f.normal.z, 1e-6));
     const glm::dvec2 cell = glm::floor(on_disc * (2.0 / spacing));
-    return Cell(std::floor(buckets_an_octave * std::log2(f.parameter)), cell.x, cell.y);
+    const glm::dvec2 stretch = glm::floor(f.stretch * stretches_of_a_unit);
+    const auto whole = [](double value) { return static_cast<std::int64_t>(value); };
+    return Cell{whole(std::floor(buckets_an_octave * std::log2(f.parameter))), whole(cell.x), whole(cell.y),
+                whole(stretch.x), whole(stretch.y)};
   };
   std::vector<std::pair<Cell, std::size_t>> order(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i) order[i] = {cell_of(facets[i]), i};
   tbb::parallel_sort(order.begin(), order.end());
   std::vector<WeightedFacet> out;
   for (std::size_t i = 0; i < order.size();) {
-    WeightedFacet sum{glm::dvec3(0.0), 0.0, 0.0};
+    WeightedFacet sum{.normal = glm::dvec3(0.0)};
     for (const Cell cell = order[i].first; i < order.size() && order[i].first == cell; ++i) {
       const WeightedFacet& facet = facets[order[i].second];
       sum.normal += facet.share * facet.normal;
       sum.parameter += facet.share * facet.parameter;
+      sum.stretch += facet.share * facet.stretch;
       sum.share += facet.share;
     }
-    out.push_back({sum.normal / sum.share, sum.parameter / sum.share, sum.share});
+    out.push_back({sum.normal / sum.share, sum.parameter / sum.share, sum.share, sum.stretch / sum.share});
   }
   return out;
 }

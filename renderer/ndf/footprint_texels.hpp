@@ -27,6 +27,7 @@ struct WeightedFacet {
   glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit; the axis of one lobe if the facet has several
   double parameter = 0.0;            ///< parameter of the base lobe
   double share = 0.0;  ///< share of the footprint times the weight of the lobe; sums to 1, or to the sum of the weights
+  glm::dvec2 stretch{0.0};  ///< of the lobe (stretch_of), whose round mean has `parameter`
 };
 
 /// The facets under a footprint.

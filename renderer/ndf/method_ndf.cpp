@@ -21,6 +21,7 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, const 
   variant.brdf = scene.brdf();
   variant.footprint = filter;
   variant.facet_lobes = scene.facet_lobes();
+  variant.finest_maps = baked.method->info.reads_finest_level;
   variant.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
   return variant;
 }

@@ -75,9 +75,9 @@ Node legendre_node(int i, int n) {
 
 }  // namespace
 
-ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets,
-                           const std::optional<Anisotropy>& anisotropy)
-    : distribution_(distribution), anisotropy_(anisotropy) {
+ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets)
+    : distribution_(distribution),
+      anisotropic_(std::ranges::any_of(facets, [](const auto& f) { return f.stretch != glm::dvec2(0.0); })) {
   std::vector<std::pair<int, std::size_t>> order(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i) order[i] = {cell_of(facets[i].normal), i};
   std::ranges::sort(order);
@@ -90,8 +90,8 @@ ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<We
       const WeightedFacet& f = facets[order[i].second];
       const Lobe lobe{distribution, f.parameter};
       facets_.push_back({f.normal, 0.5 * std::max(1.0 - glm::dot(f.normal, f.normal), 0.0), f.parameter,
-                         anisotropy ? f.share : f.share * lobe_peak(lobe)});
-      support = std::max(support, lobe_support(anisotropy ? Lobe{distribution, alphas(facets_.back()).along} : lobe));
+                         anisotropic_ ? f.share : f.share * lobe_peak(lobe), f.stretch});
+      support = std::max(support, lobe_support(anisotropic_ ? Lobe{distribution, alphas(facets_.back()).along} : lobe));
       cell.centre += f.normal;
     }
     cell.last = i;
@@ -103,7 +103,7 @@ ReferenceNdf::ReferenceNdf(NormalDistribution distribution, const std::vector<We
     cells_.push_back(cell);
   }
   const auto is_first = [&](const Facet& f) { return f.parameter == facets_.front().parameter; };
-  if (!anisotropy && std::ranges::all_of(facets_, is_first))
+  if (!anisotropic_ && std::ranges::all_of(facets_, is_first))
     profile_.emplace(Lobe{distribution, facets_.front().parameter});
 }
 
@@ -115,7 +115,7 @@ double ReferenceNdf::density(const glm::dvec3& direction, const Shape& shape) co
     const double reach = cell.radius + cell.reach;
     if (glm::dot(from_centre, from_centre) > reach * reach) continue;
     for (std::size_t i = cell.first; i < cell.last; ++i) {
-      if (anisotropy_) {
+      if (anisotropic_) {
         sum += facets_[i].amplitude * stretched(facets_[i], direction);
         continue;
       }
@@ -143,21 +143,19 @@ std::vector<double> ReferenceNdf::densities(std::span<const glm::vec3> direction
   return out;
 }
 
-Alphas ReferenceNdf::alphas(const Facet& facet) const {
-  return alphas_of_round(anisotropy_->strength, facet.parameter);
-}
+Alphas ReferenceNdf::alphas(const Facet& facet) const { return alphas_of_stretch(facet.parameter, facet.stretch); }
 
 double ReferenceNdf::stretched(const Facet& facet, const glm::dvec3& direction) const {
   const glm::dvec3 n = glm::normalize(facet.normal);
-  return anisotropic_density(distribution_, alphas(facet), anisotropy_->rotation,
+  return anisotropic_density(distribution_, alphas(facet), rotation_of_stretch(facet.stretch),
                              turned_with_normal(direction, {-n.x, -n.y, n.z}));
 }
 
 double ReferenceNdf::energy(const Facet& facet) const {
   const Lobe lobe{distribution_, facet.parameter};
-  if (!anisotropy_) return facet.amplitude / lobe_peak(lobe) * lobe_energy(lobe, facet.normal.z);
-  return facet.amplitude *
-         anisotropic_energy(distribution_, alphas(facet), anisotropy_->rotation, glm::normalize(facet.normal));
+  if (!anisotropic_) return facet.amplitude / lobe_peak(lobe) * lobe_energy(lobe, facet.normal.z);
+  return facet.amplitude * anisotropic_energy(distribution_, alphas(facet), rotation_of_stretch(facet.stretch),
+                                              glm::normalize(facet.normal));
 }
 
 double ReferenceNdf::expected_energy() const {
@@ -171,9 +169,8 @@ double ReferenceNdf::expected_energy() const {
 }
 
 Lobe ReferenceNdf::narrowest() const {
-  const auto width = [&](const Facet& f) { return lobe_width({distribution_, f.parameter}); };
-  const Facet& narrowest = *std::ranges::min_element(facets_, {}, width);
-  return {distribution_, anisotropy_ ? alphas(narrowest).across : narrowest.parameter};
+  const auto lobe = [&](const Facet& f) { return Lobe{distribution_, anisotropic_ ? alphas(f).across : f.parameter}; };
+  return lobe(*std::ranges::min_element(facets_, {}, [&](const Facet& f) { return lobe_width(lobe(f)); }));
 }
 
 HemisphereGrid hemisphere_grid(int resolution) {

@@ -18,9 +18,7 @@ class ReferenceNdf {
  public:
   /// `facets`: unit normals, or means of neighbouring normals (`merged_facets`). Groups them into cells, so that a
   /// direction only visits those whose lobes reach it.
-  /// anisotropy: stretches every lobe; the facets' parameters are then those of the round means.
-  ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets,
-               const std::optional<Anisotropy>& anisotropy = {});
+  ReferenceNdf(NormalDistribution distribution, const std::vector<WeightedFacet>& facets);
 
   /// The density at each direction; 0 for directions of length 0. Skips facets whose lobe is below `lobe_cutoff` of its
   /// peak; the others have an error below 2e-9 of the peak. Exceptions of `progress` pass through.
@@ -38,7 +36,8 @@ class ReferenceNdf {
     glm::dvec3 normal;
     double slack;      // (1 - |normal|^2) / 2, so that u = |h - normal|^2 / 2 + slack also for a mean of normals
     double parameter;  // of the lobe
-    double amplitude;  // share times the lobe's peak; of an anisotropic lobe the share
+    double amplitude;  // share times the lobe's peak; among anisotropic lobes the share
+    glm::dvec2 stretch;
   };
   // Neighbours: facets [first, last) lie within `radius` (chord) of `centre`; their lobes reach `reach` (chord).
   struct Cell {
@@ -48,13 +47,13 @@ class ReferenceNdf {
   };
   template <class Shape>
   [[nodiscard]] double density(const glm::dvec3& direction, const Shape& shape) const;
-  // The density of an anisotropic facet.
+  // The density of a facet among anisotropic ones.
   [[nodiscard]] double stretched(const Facet& facet, const glm::dvec3& direction) const;
   [[nodiscard]] Alphas alphas(const Facet& facet) const;
   [[nodiscard]] double energy(const Facet& facet) const;
 
   NormalDistribution distribution_;
-  std::optional<Anisotropy> anisotropy_;
+  bool anisotropic_;  // whether any facet is
   std::vector<Facet> facets_;
   std::vector<Cell> cells_;
   std::optional<LobeProfile> profile_;  // if all facets have the same lobe

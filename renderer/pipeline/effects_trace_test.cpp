@@ -84,6 +84,13 @@ const auto cases = std::to_array<EffectCase>({
      [](Scene& s) {
        s.materials[0].anisotropy = Anisotropy{0.7F, 0.4F};
      }},
+    {Effect::anisotropy_variation, "stretch_map",
+     [](Scene& s) {
+       s.materials[0].metallic = 0.0F;
+       s.materials[0].metallic_roughness_map = map_of(halves(2, 0.4F, 0.4F));
+       s.materials[0].anisotropy = Anisotropy{0.0F, 0.0F};
+       s.materials[0].anisotropy_map = map_of(halves(2, 0.5F, -0.5F));
+     }},
     {Effect::base_color_variation, "base_color_map",
      [](Scene& s) {
        s.materials[0].metallic = 1.0F;
@@ -132,8 +139,8 @@ const auto cases = std::to_array<EffectCase>({
        s.materials[0].alpha_cutoff = 0.5F;
      }},
     {Effect::unlit, "lobe_cutoff.z", [](Scene& s) { s.materials[0].unlit = true; }},
-    {Effect::emission, "emitted.rgb", [](Scene& s) { s.materials[0].emission = glm::vec3(0.5F); }},
-    {Effect::emission_variation, "emission_map",
+    {Effect::emission, "vec4 emitted;", [](Scene& s) { s.materials[0].emission = glm::vec3(0.5F); }},
+    {Effect::emission_variation, "emission_uv_linear",
      [](Scene& s) {
        s.materials[0].emission = glm::vec3(0.5F);
        s.materials[0].emission_map = map_of(halves(3, 1.0F, 0.25F));

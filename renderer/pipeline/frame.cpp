@@ -36,6 +36,7 @@ FrameRenderer::FrameRenderer(const gl::ContextInfo& context, GpuScene& scene, co
     : scene_(&scene),
       method_(&method),
       footprint_(wanted.footprint),
+      counts_(wanted.counting != Counting::none),
       program_(scene, method.baked(), wanted),
       tiles_(tiles_of(size, edge_of(context, tile_edge))),
       target_(tiles_.front().size.x, tiles_.front().size.y, radiance_format, true) {}
@@ -65,7 +66,12 @@ Image FrameRenderer::render(const View& view, std::span<const Tile> parts, const
     draw_tile(view, tile, offset);
     read_tile(target_, 0, tile, picture);
   }
+  add_emitted(picture, view);
   return picture;
+}
+
+void FrameRenderer::add_emitted(Image& picture, const View& view) const {
+  if (!counts_) scene_->add_emitted(picture, view);
 }
 
 void read_tile(const gl::RenderTarget& target, std::size_t attachment, const Tile& tile, Image& picture) {

@@ -23,7 +23,7 @@ class FrameRenderer {
   /// The target that `draw` leaves a frame in; null if frames have several tiles.
   [[nodiscard]] const gl::RenderTarget* whole_frame() const { return tiles_.size() == 1 ? &target_ : nullptr; }
 
-  /// Draws and reads back: RGBA, linear radiance and coverage, row 0 at the top.
+  /// Draws and reads back: RGBA, linear radiance and coverage, row 0 at the top. Light that surfaces emit is added.
   [[nodiscard]] Image render(const View& view, const glm::dvec2& offset = {0.0, 0.0}) const;
 
   /// Only some rectangles of that image, each no larger than a tile; 0 elsewhere.
@@ -33,6 +33,9 @@ class FrameRenderer {
   /// Draws `method` from now on: another bake of the same method with the same options.
   void exchange(const GpuMethod& method) { method_ = &method; }
 
+  /// Adds the light that surfaces emit to an image of the view, unless the program counts.
+  void add_emitted(Image& picture, const View& view) const;
+
   [[nodiscard]] const SurfaceProgram& program() const { return program_; }
 
  private:
@@ -41,6 +44,7 @@ class FrameRenderer {
   GpuScene* scene_;
   const GpuMethod* method_;
   FootprintFilter footprint_;
+  bool counts_;  // pixels are no radiance
   SurfaceProgram program_;
   std::vector<Tile> tiles_;
   gl::RenderTarget target_;

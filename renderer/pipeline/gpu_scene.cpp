@@ -13,6 +13,7 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
+#include "renderer/pipeline/emitted_light.hpp"
 #include "renderer/pipeline/shader_source.hpp"
 #include "renderer/scene/geometry.hpp"
 
@@ -354,6 +355,12 @@ void GpuScene::make_lights(const gl::ContextInfo& context, const Scene& scene) {
 const SampledTexture& GpuScene::area_cosines() {
   if (!*area_cosines_) *area_cosines_ = area_cosines_of(brdf_);
   return **area_cosines_;
+}
+
+void GpuScene::add_emitted(Image& picture, const View& view) {
+  if (!has(effects_, Effect::emission)) return;
+  if (!emitted_) emitted_ = std::make_shared<EmittedLight>(*this);
+  emitted_->add_to(picture, view);
 }
 
 void GpuScene::update(const Scene& scene) {

@@ -19,7 +19,9 @@
 
 namespace footprint {
 
+class EmittedLight;
 class TextureUnits;
+struct View;
 
 /// How a program's samplers filter.
 struct SamplerState {
@@ -153,6 +155,9 @@ class GpuScene {
   /// The table of lobes for area lights, fitted on the first call.
   [[nodiscard]] const SampledTexture& area_cosines();
 
+  /// Adds the light that surfaces emit (emitted_light.hpp) to an image of the view; nothing without the effect.
+  void add_emitted(Image& picture, const View& view);
+
   /// Binds the light blocks and the shadow maps at their unit of `units`, and sets the light counts of `program`.
   /// area_by_lobes: whether the program integrates area lights by lobes, if the light allows it.
   void bind_lights(const gl::Program& program, const TextureUnits& units, bool area_by_lobes = false) const;
@@ -180,6 +185,7 @@ class GpuScene {
   std::shared_ptr<GpuEnvironment> environment_;
   std::shared_ptr<std::optional<SampledTexture>> area_cosines_;
   std::shared_ptr<const GpuVisibility> visibility_;
+  std::shared_ptr<EmittedLight> emitted_;  // null before the first use
   SamplerCache samplers_;
   SceneContent content_;
   std::optional<ShadowMaps> shadow_maps_;

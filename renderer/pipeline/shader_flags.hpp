@@ -63,7 +63,8 @@ struct ShaderVariant {
   bool shared_coordinates = false;   ///< all maps of the scene are looked up at one uv
   bool surface_coordinates = false;  ///< the method has its own coordinates (Prefiltered::surface_coordinates)
   bool screen_derivatives = false;   ///< of a frame: MethodInfo::screen_derivatives
-  bool finest_coat = false;          ///< of a frame: MethodInfo::reads_finest_level
+  bool finest_maps = false;          ///< of a frame: MethodInfo::reads_finest_level
+  bool emitting = false;             ///< draws what surfaces emit, and nothing else (emitted_light.hpp)
   EnvironmentUse environment = EnvironmentUse::prefiltered;  ///< sampled only if the module draws directions
   bool sums_environment = false;                             ///< MethodInfo::sums_environment
   std::size_t environment_suns = 0;            ///< suns separated from the environment (scene/environment.hpp)

@@ -10,6 +10,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <span>
 
+#include "renderer/pipeline/emitted_light.hpp"
+
 namespace footprint {
 namespace {
 
@@ -181,7 +183,17 @@ Supersampled Supersampler::render_tiles(const View& view, const SampleGrid& samp
       blocks.add(sums(), tile, start);
     }
   }
-  return blocks.result(spp, samples.passes.back().half > 0);
+  Supersampled out = blocks.result(spp, samples.passes.back().half > 0);
+  add_emitted(out, view);
+  return out;
+}
+
+void Supersampler::add_emitted(Supersampled& picture, const View& view) const {
+  if (method_->baked().method == &emitted_surface()) return;
+  scene_->add_emitted(picture.mean, view);
+  if (!picture.halves) return;
+  scene_->add_emitted(picture.halves->first, view);
+  scene_->add_emitted(picture.halves->second, view);
 }
 
 Supersampled Supersampler::render(const View& view, int spp, std::uint64_t seed, const Progress& progress,

@@ -15,7 +15,7 @@
 
 namespace footprint {
 
-/// A supersampled image. All images have the view's size, row 0 at the top.
+/// A supersampled image, light that surfaces emit included. All images have the view's size, row 0 at the top.
 struct Supersampled {
   int spp = 0;
   /// RGBA: mean radiance over the samples that have one, and the share 0..1 of samples that the surface covers. Samples
@@ -62,6 +62,8 @@ class Supersampler {
   void begin(const glm::ivec2& tile, int grid) const;
   [[nodiscard]] Supersampled render_tiles(const View& view, const SampleGrid& samples, std::span<const Tile> tiles,
                                           TexelUse texels, const Progress& progress) const;
+  // To all images of a result, unless this draws that light itself.
+  void add_emitted(Supersampled& picture, const View& view) const;
   // Draws a pass and adds it to the sums.
   void accumulate(const View& view, const Tile& tile, int grid, const SamplePass& pass, TexelUse texels) const;
 

@@ -11,6 +11,7 @@
 
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/pipeline/emitted_light.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/sample_sequence.hpp"
 #include "renderer/pipeline/view.hpp"
@@ -19,6 +20,8 @@ namespace footprint {
 namespace {
 
 bool has_patches(const EffectSet& effects) { return has(effects, Effect::microgeometry_visibility); }
+
+bool draws_emitted_light(const Method& method) { return &method == &emitted_surface(); }
 
 // The effects of a program: those that the method honours, the maps that the pipeline reads itself, vertex colours,
 // clear coats, unlit and emitting surfaces, and visibility, which is the same for all methods.
@@ -29,7 +32,7 @@ EffectSet effects_of(const GpuScene& scene, const Method& method) {
   shared.set(static_cast<std::size_t>(Effect::clear_coat));
   shared.set(static_cast<std::size_t>(Effect::unlit));
   shared.set(static_cast<std::size_t>(Effect::emission));
-  shared.set(static_cast<std::size_t>(Effect::cast_shadow));
+  shared.set(static_cast<std::size_t>(Effect::cast_shadow), !draws_emitted_light(method));
   return scene.effects() & (method.info.honours | shared);
 }
 
@@ -51,7 +54,8 @@ ShaderVariant variant_of(const GpuScene& scene, const BakedMethod& baked, Shader
   v.shared_coordinates = scene.shared_coordinates();
   v.surface_coordinates = baked.materials.front().surface_coordinates.has_value();
   v.screen_derivatives = info.screen_derivatives && is_frame;
-  v.finest_coat = info.reads_finest_level && is_frame;
+  v.emitting = draws_emitted_light(*baked.method);
+  v.finest_maps = info.reads_finest_level && is_frame;
   if (v.environment == EnvironmentUse::sampled && !integrates_itself) v.environment = EnvironmentUse::prefiltered;
   v.sums_environment = info.sums_environment;
   v.environment_suns = scene.environment() != nullptr ? scene.environment()->sun_count() : 0;
@@ -213,15 +217,17 @@ GLuint GpuMethod::vertex_array(const GpuBatch& batch) const {
 
 glm::ivec2 GpuMethod::texels(const GpuBatch& batch) const {
   glm::ivec2 largest(1);
-  const auto look_at = [&](std::span<const GpuTexture> textures) {
-    for (const GpuTexture& map : textures) {
-      const glm::ivec2 size(map.texture->width(), map.texture->height());
-      const bool is_map = map.filter != TextureFilter::linear && same_uv(map.coordinates, batch.coordinates);
-      if (is_map && size.x * size.y > largest.x * largest.y) largest = size;
-    }
+  const auto look_at = [&](const GpuTexture& map) {
+    const glm::ivec2 size(map.texture->width(), map.texture->height());
+    const bool is_map = map.filter != TextureFilter::linear && same_uv(map.coordinates, batch.coordinates);
+    if (is_map && size.x * size.y > largest.x * largest.y) largest = size;
   };
-  look_at(batch.shared_textures);
-  look_at(batches_.at(batch.index).textures);
+  for (std::size_t i = 0; const SharedMap& map : shared_maps()) {
+    if (!has(scene_->effects(), map.effect)) continue;
+    const GpuTexture& texture = batch.shared_textures.at(i++);
+    if (map.effect != Effect::emission_variation) look_at(texture);  // only emitted_light.hpp reads that one
+  }
+  for (const GpuTexture& map : batches_.at(batch.index).textures) look_at(map);
   return largest;
 }
 
@@ -263,7 +269,8 @@ void GpuMethod::rebuild(const View& view, RecordedDraws* record) const {
 
 void GpuMethod::bind(const GpuBatch& batch, GpuScene& scene, SamplerState state) const {
   const PerBatch& part = batches_.at(batch.index);
-  auto unit = static_cast<GLuint>(batch.shared_textures.size());
+  GLuint unit = 0;
+  for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, state);
   for (const GpuTexture& texture : part.textures) bind_texture(unit++, texture, scene, state);
   if (part.block.name() != 0) gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::method, part.block.name());
 }
@@ -407,8 +414,6 @@ void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, cons
     if (texels_location >= 0)
       gl::api().Uniform3fv(texels_location, 1, glm::value_ptr(drawn_texels(method, batch, samples.texels)));
     gl::api().BindBufferBase(GL_UNIFORM_BUFFER, block_binding::material, batch.material_block.name());
-    GLuint unit = 0;
-    for (const GpuTexture& texture : batch.shared_textures) bind_texture(unit++, texture, scene, sampler_state_);
     method.bind(batch, scene, sampler_state_);
     if (environment_light) scene.environment()->bind(units, variant.environment);
     gl::api().BindVertexArray(method.vertex_array(batch));

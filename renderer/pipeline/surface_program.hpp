@@ -64,7 +64,7 @@ class GpuMethod {
   /// The size of a batch's largest map with the normal map's coordinates: samples of the reference separate its texels.
   /// (1, 1) without such a map.
   [[nodiscard]] glm::ivec2 texels(const GpuBatch& batch) const;
-  /// Binds the textures of a batch (after the shared ones) and its values.
+  /// Binds the shared textures of a batch, then the method's own, and its values.
   void bind(const GpuBatch& batch, GpuScene& scene, SamplerState state) const;
   /// The triangles of a batch, with this method's surface coordinates if it has some.
   [[nodiscard]] GLuint vertex_array(const GpuBatch& batch) const;

@@ -35,6 +35,7 @@ std::vector<Map*> maps_in(AnyMaterial& material) {
   add(material.base_color_map);
   add(material.metallic_roughness_map);
   add(material.lobe_parameter_map);
+  add(material.anisotropy_map);
   add(material.specular_map);
   add(material.emission_map);
   add(material.occlusion_map);
@@ -102,12 +103,12 @@ void fields(ByteArchive& archive, const Patch& patch) {
 
 void fields(ByteArchive& archive, const Material& material) {
   const auto& [name, brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy,
-               base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, emission, emission_map,
-               occlusion_map, normal_map, layer_map, coat, share, alpha_cutoff, double_sided, unlit, microgeometry] =
-      material;
+               base_color_map, metallic_roughness_map, lobe_parameter_map, anisotropy_map, specular_map, emission,
+               emission_map, occlusion_map, normal_map, layer_map, coat, share, alpha_cutoff, double_sided, unlit,
+               microgeometry] = material;
   archive(brdf, base_color, dielectric_specular, metallic, roughness, lobe_parameter, lobes, anisotropy);
   archive(base_color_map, metallic_roughness_map, lobe_parameter_map, specular_map, normal_map, layer_map, coat);
-  archive(emission, emission_map, occlusion_map);
+  archive(anisotropy_map, emission, emission_map, occlusion_map);
   archive(share, alpha_cutoff, double_sided, unlit, microgeometry);
 }
 

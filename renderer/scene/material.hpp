@@ -96,7 +96,7 @@ struct Material {
   /// Replaces the lobe about the normal, and all widths; empty: one lobe about the normal.
   std::vector<FacetLobe> lobes;
   /// Stretches the lobe about the normal (beckmann, ggx), whose widths then are those across the direction; excludes
-  /// `lobes` and `microgeometry`.
+  /// `lobes` and `microgeometry`. The mean of anisotropy_map, if there is one.
   std::optional<Anisotropy> anisotropy;
 
   std::optional<TextureMap> base_color_map;  ///< RGBA, linear
@@ -104,6 +104,9 @@ struct Material {
   std::optional<TextureMap> metallic_roughness_map;
   /// 1 channel, as lobe_parameter. Replaces metallic_roughness_map; `metallic` stays.
   std::optional<TextureMap> lobe_parameter_map;
+  /// 2 channels: s^2 (cos 2 phi, sin 2 phi) for a texel's strength s and rotation phi (Anisotropy). Has the size and
+  /// the coordinates of width_map, which is there.
+  std::optional<TextureMap> anisotropy_map;
   std::optional<TextureMap> specular_map;  ///< RGB, linear; multiplies dielectric_specular
   glm::vec3 emission{0.0F};                ///< radiance that the surface adds, linear RGB, 0 and above
   std::optional<TextureMap> emission_map;  ///< RGB, linear; multiplies emission

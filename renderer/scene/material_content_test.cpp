@@ -32,8 +32,8 @@ Material whole_material() {
   material.lobes = {{}, {}};
   material.anisotropy = Anisotropy{};
   for (auto* const map : {&material.base_color_map, &material.metallic_roughness_map, &material.lobe_parameter_map,
-                          &material.specular_map, &material.emission_map, &material.occlusion_map, &material.normal_map,
-                          &material.layer_map})
+                          &material.anisotropy_map, &material.specular_map, &material.emission_map,
+                          &material.occlusion_map, &material.normal_map, &material.layer_map})
     *map = map_of(0.5F);
   material.coat = ClearCoat{};
   for (auto* const map : {&material.coat->weight_map, &material.coat->roughness_map, &material.coat->normal_map})
@@ -101,8 +101,8 @@ std::vector<Change> changes() {
                           })};
   for (std::optional<TextureMap> Material::*const map :
        {&Material::base_color_map, &Material::metallic_roughness_map, &Material::lobe_parameter_map,
-        &Material::specular_map, &Material::emission_map, &Material::occlusion_map, &Material::normal_map,
-        &Material::layer_map}) {
+        &Material::anisotropy_map, &Material::specular_map, &Material::emission_map, &Material::occlusion_map,
+        &Material::normal_map, &Material::layer_map}) {
     out.emplace_back([map](Material& m) { (m.*map).reset(); });
     out.emplace_back([map](Material& m) { m.*map = map_of(0.25F); });
     out.emplace_back([map](Material& m) { (m.*map)->image = std::make_shared<const Image>(4, 1, 4, 0.5F); });

@@ -25,7 +25,7 @@ Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
   float size = max(length(mean), 1e-3);
   vec3 normal = dot(mean, mean) > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0);  // some that cancel have no mean
   float spread = 0.0;
-//? if sampling_frame and not finest_coat
+//? if sampling_frame and not finest_maps
   // Slope variance per axis, (1 - r) / r (Toksvig 2005), plus GGX's alpha^2 / 2.
   float added = 2.0 * shortfallOfLength(size, rounding_of_floats) / size;
   spread = added / (alpha2 + added);
@@ -34,7 +34,7 @@ Coat coatOf(vec3 mean, float alpha2, float weight, vec3 wo) {
   return Coat(normal, alpha2, weight, weight * coatFresnel(dot(normal, wo)), spread);
 }
 
-vec4 fetchCoat(sampler2D map, Footprint f) { return fetchFinest(map, f); }  //? if finest_coat
+vec4 fetchCoat(sampler2D map, Footprint f) { return fetchFinest(map, f); }  //? if finest_maps
 vec4 fetchCoat(sampler2D map, Footprint f) { return fetch(map, f); }        //? else
 
 Coat coatUnder(Footprints f, vec3 wo) {
@@ -50,7 +50,7 @@ Coat coatUnder(Footprints f, vec3 wo) {
 // of these normals is between the mean normal and h, in proportion to their share of the total spread. At grazing
 // views, where few normals reflect, this is much smaller than the term of the mean normal.
 float coatShare(Coat coat, vec3 h, vec3 wo) {
-//? if coat_normal_variation and sampling_frame and not finest_coat
+//? if coat_normal_variation and sampling_frame and not finest_maps
   return coat.weight * coatFresnel(dot(normalize(mix(coat.normal, h, coat.spread)), wo));
 //? else
   return coat.share;

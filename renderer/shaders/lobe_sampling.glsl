@@ -49,7 +49,7 @@ vec3 drawnBaseNormal(float lobe, vec3 n, vec2 u) {
   float tangent = sqrt(-log(left));           //? else
   float azimuth = 2.0 * pi * u.y;
   vec2 slope = facetAlphas(lobe) * tangent * vec2(cos(azimuth), sin(azimuth));
-  vec2 d = anisotropy().zw;
+  vec2 d = facetDirection();
   return turnedWithNormal(normalize(vec3(slope.x * d + slope.y * vec2(-d.y, d.x), 1.0)), n);
 }
 float drawnBaseDensity(float lobe, vec3 n, vec3 h) { return baseDensity(lobe, n, h) * max(dot(n, h), 0.0); }

@@ -10,6 +10,12 @@ uniform vec2 footprint_dy[3];
 //? include footprint_parts.glsl if filter_parts
 Footprint givenFootprint(int slot) { return Footprint(footprint_uv[slot], footprint_dx[slot], footprint_dy[slot]); }
 
+//? include stretch_under.glsl if anisotropic_lobe and anisotropy_variation
+float densityOf(Footprints f, vec3 h) {
+  stretch = stretchUnder(f);  //? if anisotropic_lobe and anisotropy_variation
+  return ndf(effective(f), h);
+}
+
 void main() {
   vec3 h = texelFetch(ndf_directions, ivec2(gl_FragCoord.xy), 0).xyz;
   if (h == vec3(0.0)) {
@@ -27,9 +33,9 @@ void main() {
 //? if filter_shaded
   density = 0.0;
   int parts = partCount();
-  for (int i = 0; i < parts; ++i) density += ndf(effective(partOf(all, i)), h);
+  for (int i = 0; i < parts; ++i) density += densityOf(partOf(all, i), h);
   density /= float(parts);
 //? else
-  density = ndf(effective(all), h);
+  density = densityOf(all, h);
 //? end
 }

@@ -61,6 +61,7 @@ vec3 seen_facet;  // of the pixel
 //? include clear_coat.glsl
 
 //? end
+//? include stretch_under.glsl if anisotropic_lobe and anisotropy_variation
 // The surface seen through a pixel or a part of it.
 struct SurfacePoint {
   Effective effective;
@@ -192,7 +193,7 @@ Surface surfaceUnder(Footprints f, vec3 base_color) {
   return Surface(base_color * (1.0 - metallic), mix(dielectric_specular, base_color, metallic));
 }
 
-//? if emission
+//? if emitting
 // The light that a surface emits through its coat (KHR_materials_clearcoat, Emission).
 vec3 emission(Footprints f, SurfacePoint p) {
   vec3 radiance = emitted.rgb;
@@ -216,14 +217,16 @@ float meanAlpha(Footprints f) {
 }
 //? end
 
-// The radiance of a footprint, reflected and emitted, times the share of the material.
+// The radiance of a footprint, times the share of the material.
 vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? if material_index
   float share = fetch(material_share, f.share).r;
   if (share <= 0.0) return vec3(0.0);
 //? end
-  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;  //? if unlit and material_index
+  if (lobe_cutoff.z > 0.0) return vec3(0.0);                 //? if unlit and emitting
+  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;  //? elif unlit and material_index
   if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;          //? elif unlit
+  stretch = stretchUnder(f);  //? if anisotropic_lobe and anisotropy_variation
 //? if clear_coat
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo, coatUnder(f, wo));
 //? else
@@ -231,7 +234,7 @@ vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
 //? end
   unoccluded = fetch(occlusion_map, f.occlusion).r;  //? if occlusion
   vec3 radiance = lit(p);
-  radiance += emission(f, p);  //? if emission
+  radiance += emission(f, p);  //? if emitting
   return share * radiance;  //? if material_index
   return radiance;          //? else
 }

@@ -20,14 +20,12 @@ NdfBench::NdfBench(const gl::Context& context, const Material& material, const F
       texels_(texels_under(material, footprint)) {}
 
 std::vector<double> NdfBench::exact_at(const std::vector<glm::vec3>& directions) const {
-  const ReferenceNdf exact(scene_.materials.front().brdf.distribution, texels_.facets,
-                           scene_.materials.front().anisotropy);
+  const ReferenceNdf exact(scene_.materials.front().brdf.distribution, texels_.facets);
   return exact.densities(directions, no_progress);
 }
 
 Directions NdfBench::over_the_hemisphere(int rings) const {
-  const ReferenceNdf exact(scene_.materials.front().brdf.distribution, texels_.facets,
-                           scene_.materials.front().anisotropy);
+  const ReferenceNdf exact(scene_.materials.front().brdf.distribution, texels_.facets);
   Directions out{hemisphere_grid(std::min(resolution_for(exact.narrowest()), rings)), {}};
   out.exact = exact.densities(out.grid.directions, no_progress);
   return out;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "methods/registry.hpp"
 #include "renderer/image/metrics.hpp"
@@ -112,6 +113,30 @@ TEST_P(EveryMethodsBaseBrdf, AnisotropicLobesAreDirectsOnAConstantMapOrTheirRoun
   }
 }
 
+// A map of anisotropy with one value in every texel but a few: the picture of the constant, for every method.
+TEST_P(EveryMethodsBaseBrdf, MapsOfAnisotropyAreWhatTheirTexelsSay) {
+  Scene scene = square_scene(constant_normals(16, 16, {0.28F, 0, 0.96F}),
+                             {.brdf = stretched_brdfs[0], .specular = glm::vec3(0.5F)});
+  Material& material = scene.materials[0];
+  Image widths(16, 16, 2, 0.0F), axes(16, 16, 2, 0.0F);
+  for (std::size_t i = 0; i < widths.texel_count(); ++i) widths.texels[2 * i] = 0.45F;
+  const Anisotropy one{0.6F, 0.5F};
+  for (std::size_t i = 0; i < axes.texel_count(); ++i) {
+    axes.texels[2 * i] = one.strength * one.strength * std::cos(2.0F * one.rotation);
+    axes.texels[2 * i + 1] = one.strength * one.strength * std::sin(2.0F * one.rotation);
+  }
+  axes.at(0, 0)[0] = -axes.at(0, 0)[0];  // in a corner: the map varies
+  widths.at(0, 0)[0] = 0.452F;
+  material.metallic_roughness_map = TextureMap{"widths", std::make_shared<const Image>(widths), {}};
+  material.anisotropy = one;
+  Scene constant = scene;
+  material.anisotropy = Anisotropy{0.1F, 2.0F};  // not read where the map is
+  material.anisotropy_map = TextureMap{"axes", std::make_shared<const Image>(axes), {}};
+  TestRenderer mapped(scene, {24, 24}), plain(constant, {24, 24});
+  const Image picture = mapped.frame(*GetParam(), {}, {}, 0, 0.05);  // the middle alone
+  EXPECT_LT(error_of(picture, plain.frame(*GetParam(), {}, {}, 0, 0.05)), 1e-3);
+}
+
 TEST_P(EveryMethodsBaseBrdf, AnisotropicLobesStayFiniteAtTheLimits) {
   for (const BaseBrdf& brdf : stretched_brdfs) {
     for (const float roughness : {0.0F, 0.3F, 1.0F}) {
@@ -199,6 +224,38 @@ TEST(Lean, HasTheCovarianceOfAnAnisotropicBaseOnConstantSlopes) {
   for (const char* const method : {"leadr:roughness=shading", "leadr:roughness=moments"})
     EXPECT_LT(error_of(renderer.frame(find_method("leadr"), method), direct), 0.05) << method;
   EXPECT_GT(error_of(renderer.frame(find_method("toksvig")), direct), 0.2) << "the round mean";
+}
+
+// Two brushed directions by turns, texel by texel: seen from afar the reference is the mean of both constants'
+// pictures. LEAN's Gaussian has the mean covariance, and a constant mean of anisotropy has none.
+TEST(MapOfAnisotropy, IsTheMeanOfItsLobesFarAway) {
+  Scene scene = square_scene({}, {.brdf = stretched_brdfs[0], .specular = glm::vec3(0.5F)});
+  Material& material = scene.materials[0];
+  constexpr float strength = 0.7F;
+  Image axes(64, 64, 2, 0.0F), widths(64, 64, 2, 0.0F);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      axes.at(x, y)[0] = strength * strength * ((x + y) % 2 == 0 ? 1.0F : -1.0F);
+      widths.at(x, y)[0] = 0.4F;
+    }
+  }
+  material.metallic_roughness_map = TextureMap{"widths", std::make_shared<const Image>(widths), {}};
+  const auto reference = [&](const Scene& of) { return TestRenderer(of, {16, 16}).reference(256).mean; };
+  material.anisotropy = Anisotropy{strength, 0.0F};
+  const Image along = reference(scene);
+  material.anisotropy->rotation = 0.5F * std::numbers::pi_v<float>;
+  const Image across = reference(scene);
+  Image mean = along;
+  for (std::size_t i = 0; i < mean.texels.size(); ++i) mean.texels[i] = 0.5F * (along.texels[i] + across.texels[i]);
+  material.anisotropy = Anisotropy{0.0F, 0.0F};
+  material.anisotropy_map = TextureMap{"axes", std::make_shared<const Image>(axes), {}};
+  const Image turns = reference(scene);
+  EXPECT_LT(error_of(turns, mean), 0.01);
+  EXPECT_GT(error_of(turns, along), 0.1);
+  TestRenderer renderer(scene, {16, 16});
+  EXPECT_LT(error_of(renderer.frame(find_method("exact")), mean), 0.01);
+  material.anisotropy_map.reset();
+  EXPECT_GT(error_of(reference(scene), mean), 0.05) << "the mean of the axes is round";
 }
 
 // Xu et al. 2017 name anisotropic base BRDFs as a limit of their round lobes, which take the round mean. A flat map

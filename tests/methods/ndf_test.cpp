@@ -46,7 +46,7 @@ class Inspection {
  public:
   explicit Inspection(Material material, const FootprintRect& rect = whole_map, int most_rings = largest_resolution)
       : rect_(rect), scene_(scene_of_facets(material)), gpu_(shared_context().info(), scene_, effects()) {
-    const ReferenceNdf exact(material.brdf.distribution, texels_under(material, rect).facets, material.anisotropy);
+    const ReferenceNdf exact(material.brdf.distribution, texels_under(material, rect).facets);
     grid_ = hemisphere_grid(std::min(resolution_for(exact.narrowest()), most_rings));
     exact_ = exact.densities(grid_.directions, no_progress);
   }

@@ -9,6 +9,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
+#include "renderer/scene/assembly/anisotropy_map.hpp"
 #include "renderer/scene/assembly/microgeometry_content.hpp"
 #include "renderer/scene/assembly/surface_maps.hpp"
 #include "renderer/scene/charts.hpp"
@@ -171,7 +172,10 @@ void apply(const BrdfSettings& settings, const MapSettings& maps, Material& mate
   material.brdf.geometry = settings.geometry.value_or(material.brdf.geometry);
   material.brdf.fresnel = settings.fresnel.value_or(material.brdf.fresnel);
   material.brdf.diffuse = settings.diffuse.value_or(material.brdf.diffuse);
-  if (settings.anisotropy) material.anisotropy = settings.anisotropy;
+  if (settings.anisotropy) {
+    material.anisotropy = settings.anisotropy;
+    material.anisotropy_map.reset();
+  }
   if (settings.base_color) replace_base_color(*settings.base_color, material);
   if (settings.specular) {
     material.metallic_roughness_map.reset();
@@ -364,8 +368,10 @@ void add_name(const std::string& part, std::string& name) {
 }
 
 // Takes an anisotropy of strength 0 away, and refuses one that a model has where its lobe cannot be stretched.
-void settle_anisotropy(Material& material) {
-  if (material.anisotropy && material.anisotropy->strength == 0.0F) material.anisotropy.reset();
+void settle_anisotropy(Material& material, std::vector<std::string>& warnings) {
+  lay_anisotropy(material, warnings);
+  if (material.anisotropy && material.anisotropy->strength == 0.0F && !material.anisotropy_map)
+    material.anisotropy.reset();
   if (!material.anisotropy) return;
   const NormalDistribution distribution = material.brdf.distribution;
   const bool stretchable = distribution == NormalDistribution::ggx || distribution == NormalDistribution::beckmann;
@@ -395,7 +401,7 @@ Model load_part(const PartSettings& settings) {
   }
   lay_maps(settings, model);
   for (Material& material : model.materials) {
-    settle_anisotropy(material);
+    settle_anisotropy(material, model.warnings);
     add_name(settings.name, material.name);
   }
   if (settings.brdf.base_color || settings.maps.diffuse) whiten_vertices(model);

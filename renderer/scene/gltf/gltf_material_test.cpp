@@ -307,20 +307,40 @@ TEST(Gltf, AnisotropyHasAStrengthARotationAndATexture) {
   // (x, y) = (1, 1) is 45 degrees, whatever its length; blue 51 is a fifth of the strength.
   const Model constant = textured(one_colour({255.0F, 255.0F, 51.0F}));
   EXPECT_TRUE(constant.warnings.empty());
+  EXPECT_FALSE(constant.materials.at(0).anisotropy_map);
   expect(constant, 0.6F * 0.2F, 0.5F + std::numbers::pi_v<float> / 4.0F);
-  // Half along x at full strength, half along -x at none: the axis is x, and the mean of s^2 is a half.
-  Image halves = one_colour({255.0F, 127.5F, 255.0F});
-  for (std::size_t i = 0; i < 6; ++i) halves.texels[i] = std::array{0.0F, 127.5F / 255.0F, 0.0F}.at(i % 3);
-  const Model mixed = textured(halves);
-  ASSERT_EQ(mixed.warnings.size(), 1U);
-  EXPECT_NE(mixed.warnings.front().find("varies, and a material has one anisotropy"), std::string::npos);
-  ASSERT_TRUE(mixed.materials.at(0).anisotropy);
-  EXPECT_NEAR(mixed.materials.at(0).anisotropy->strength, 0.6F * std::sqrt(0.5F), 2e-3F);
-  // Axes across each other cancel: nothing is left that a single axis can represent.
-  Image crossed = one_colour({255.0F, 127.5F, 255.0F});
-  for (std::size_t i = 0; i < 6; ++i) crossed.texels[i] = std::array{127.5F / 255.0F, 1.0F, 1.0F}.at(i % 3);
-  const auto none = textured(crossed).materials.at(0).anisotropy;
-  EXPECT_LT(none ? none->strength : 0.0F, 0.06F);
+}
+
+// Each texel of the texture has s^2 (cos 2 phi, sin 2 phi): directions are axes, and blue is a share of the strength.
+TEST(Gltf, AnisotropyVariesWithItsTexture) {
+  GltfBuilder quad = make_quad();
+  quad.json["extensionsUsed"] = {"KHR_materials_anisotropy"};
+  quad.json["meshes"][0]["primitives"][0]["material"] = 0;
+  Image stored(2, 2, 3, 1.0F);  // 45 degrees, its opposite, x at a fifth of the strength, and y
+  stored.texels = {1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 1.0F, 1.0F, 128.0F / 255.0F, 0.2F, 128.0F / 255.0F, 1.0F, 1.0F};
+  const int texture = quad.add_texture(stored);
+  quad.json["materials"] = {
+      {{"extensions",
+        {{"KHR_materials_anisotropy",
+          {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 0.25}, {"anisotropyTexture", {{"index", texture}}}}}}}}};
+  const Model model = load_gltf(quad.write());
+  EXPECT_TRUE(model.warnings.empty());
+  const Material& material = model.materials.at(0);
+  ASSERT_TRUE(material.anisotropy_map && material.anisotropy);
+  const Image axes = material.anisotropy_map->image.decoded();
+  const auto expect = [&](std::size_t texel, double squared, double degrees) {
+    const double angle = 2.0 * (glm::radians(degrees) + 0.25);
+    EXPECT_NEAR(axes.texels[2 * texel], squared * std::cos(angle), 1e-2 * squared);
+    EXPECT_NEAR(axes.texels[2 * texel + 1], squared * std::sin(angle), 1e-2 * squared);
+  };
+  expect(0, 0.25, 45.0);
+  expect(1, 0.25, 45.0);
+  expect(2, 0.01, 0.0);
+  expect(3, 0.25, 90.0);
+  const double x = axes.texels[0] + axes.texels[2] + axes.texels[4] + axes.texels[6];
+  const double y = axes.texels[1] + axes.texels[3] + axes.texels[5] + axes.texels[7];
+  EXPECT_NEAR(material.anisotropy->strength, std::sqrt(0.25 * std::hypot(x, y)), 1e-6);
+  EXPECT_NEAR(material.anisotropy->rotation, 0.5 * std::atan2(y, x), 1e-6);
 }
 
 // KHR_materials_unlit: the base colour alone. What is about light is left out, without a warning.

@@ -92,29 +92,33 @@ Image decode_glossiness(const Image& stored, float glossiness_factor) {
                 [=](const auto& in, const auto& out) { out[0] = 1.0F - glossiness_factor * in[3]; });
 }
 
-struct StretchTexture {
-  Anisotropy mean;
-  bool varies;  // by more than two codes of 8 bits
-};
+// Of KHR_materials_anisotropy: red and green are a direction, blue a share of the strength s. Directions are axes, so
+// that t and -t are equal: s^2 (cos 2 phi, sin 2 phi) per texel, as Material::anisotropy_map. factor: the strength of
+// the whole material, and the rotation of all directions.
+Image decode_anisotropy(const Image& stored, const Anisotropy& factor) {
+  const double c = std::cos(2.0 * factor.rotation), s = std::sin(2.0 * factor.rotation);
+  return mapped(to_rgb(stored), 2, [=](const auto& in, const auto& out) {
+    const glm::dvec2 t(2.0 * in[0] - 1.0, 2.0 * in[1] - 1.0);
+    const double strength = double{factor.strength} * in[2];
+    const double scale = strength * strength / std::max(glm::dot(t, t), 1e-12);
+    const glm::dvec2 axis = scale * glm::dvec2(t.x * t.x - t.y * t.y, 2.0 * t.x * t.y);
+    out[0] = static_cast<float>(c * axis.x - s * axis.y);
+    out[1] = static_cast<float>(s * axis.x + c * axis.y);
+  });
+}
 
-// Of KHR_materials_anisotropy: red and green are a direction, blue a strength s. Directions are axes, so that t and -t
-// are equal. A lobe is wider along its axis by (1 - alpha) s^2, and the mean is that of s^2 (cos 2 phi, sin 2 phi).
-StretchTexture read_stretch(const Image& texture) {
-  const Image rgb = to_rgb(texture);
+Anisotropy mean_anisotropy(const Image& axes) {
   glm::dvec2 sum(0.0);
-  glm::vec3 least(1.0F), most(0.0F);
-  for (std::size_t i = 0; i < rgb.texel_count(); ++i) {
-    const glm::vec3 texel = glm::make_vec3(&rgb.texels[3 * i]);
-    const glm::dvec2 t = 2.0 * glm::dvec2(texel) - 1.0;
-    const double strength = texel.b, length = std::max(glm::dot(t, t), 1e-12);
-    sum += strength * strength / length * glm::dvec2(t.x * t.x - t.y * t.y, 2.0 * t.x * t.y);
-    least = glm::min(least, texel);
-    most = glm::max(most, texel);
-  }
-  const double stretch = glm::length(sum) / static_cast<double>(rgb.texel_count());
-  return {.mean = {.strength = static_cast<float>(std::sqrt(stretch)),
-                   .rotation = static_cast<float>(0.5 * std::atan2(sum.y, sum.x))},
-          .varies = largest_channel(most - least) > 2.5F / 255.0F};
+  for (std::size_t i = 0; i < axes.texel_count(); ++i) sum += glm::dvec2(glm::make_vec2(&axes.texels[2 * i]));
+  const double squared = glm::length(sum) / static_cast<double>(axes.texel_count());
+  return {static_cast<float>(std::sqrt(squared)), static_cast<float>(rotation_of_stretch(sum))};
+}
+
+bool is_uniform(const Image& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = channels; i < image.texels.size(); ++i)
+    if (image.texels[i] != image.texels[i % channels]) return false;
+  return true;
 }
 
 // 1 - max specular over a whole texture.
@@ -143,8 +147,8 @@ struct Texture {
 std::vector<std::optional<TextureMap>*> optional_maps(Material& material) {
   std::vector<std::optional<TextureMap>*> maps{&material.normal_map};
   if (material.coat) maps.push_back(&material.coat->normal_map);
-  maps.insert(maps.end(), {&material.base_color_map, &material.metallic_roughness_map, &material.specular_map,
-                           &material.emission_map, &material.occlusion_map});
+  maps.insert(maps.end(), {&material.base_color_map, &material.metallic_roughness_map, &material.anisotropy_map,
+                           &material.specular_map, &material.emission_map, &material.occlusion_map});
   if (material.coat) maps.insert(maps.end(), {&material.coat->weight_map, &material.coat->roughness_map});
   std::erase_if(maps, [](const std::optional<TextureMap>* map) { return !*map; });
   return maps;
@@ -331,23 +335,22 @@ class Converter {
         map(source, occlusion_texture, fmt::format("occlusion {}", strength), Transfer::linear, red, decode);
   }
 
-  // KHR_materials_anisotropy: strength and rotation, times and turned by the mean of its texture.
+  // KHR_materials_anisotropy: strength and rotation, and a texture of both.
   void convert_anisotropy(const Json& source, Material& material) {
-    Anisotropy anisotropy{factor(source, anisotropic / "anisotropyStrength", 0.0),
-                          factor(source, anisotropic / "anisotropyRotation", 0.0, -1e6, 1e6)};
-    if (anisotropy.strength == 0.0F) return;
-    if (const auto found = texture(source, anisotropic / "anisotropyTexture")) {
-      const StretchTexture read = read_stretch(unit_values(found->image, Transfer::linear, color_channels));
-      anisotropy.strength *= read.mean.strength;
-      anisotropy.rotation += read.mean.rotation;
-      if (read.varies) {
-        add_once(warnings_,
-                 fmt::format("the anisotropy texture {} varies, and a material has one anisotropy: its mean is used, a "
-                             "strength of {:.3g} at {:.3g} degrees",
-                             found->map.name, anisotropy.strength, glm::degrees(anisotropy.rotation)));
-      }
-    }
-    if (anisotropy.strength > 0.0F) material.anisotropy = anisotropy;
+    const Anisotropy factor_of{factor(source, anisotropic / "anisotropyStrength", 0.0),
+                               factor(source, anisotropic / "anisotropyRotation", 0.0, -1e6, 1e6)};
+    if (factor_of.strength == 0.0F) return;
+    material.anisotropy = factor_of;
+    material.anisotropy_map =
+        map(source, anisotropic / "anisotropyTexture",
+            fmt::format("anisotropy {} {}", factor_of.strength, factor_of.rotation), Transfer::linear, color_channels,
+            [&](const Image& image) { return decode_anisotropy(image, factor_of); });
+    if (!material.anisotropy_map) return;
+    const Image axes = material.anisotropy_map->image.decoded();
+    material.anisotropy = mean_anisotropy(axes);
+    if (!is_uniform(axes)) return;
+    material.anisotropy_map.reset();
+    if (material.anisotropy->strength == 0.0F) material.anisotropy.reset();
   }
 
   // None without the member, or for a texture that cannot be used.
@@ -483,6 +486,7 @@ std::uint64_t decoded_map_bytes(const GltfDocument& document) {
                               {occlusion_texture, "occlusion", 1},
                               {specular_glossiness / "diffuseTexture", "color", 4},
                               {specular_glossiness / "specularGlossinessTexture", "specular", 4 + 2 + 3},
+                              {anisotropic / "anisotropyTexture", "anisotropy", 2},
                               {clear_coat / "clearcoatTexture", "coat weight", 1},
                               {clear_coat / "clearcoatRoughnessTexture", "coat roughness", 1},
                               {clear_coat / "clearcoatNormalTexture", "normal", 4}};

@@ -1,5 +1,6 @@
 // Adds NDFs, quantities and composed figures to a comparison's results, compares outcomes with what was expected,
-// decides claims over times again by estimates for GPUs, and bounds the noise under each threshold from below.
+// decides which claims the renderer can decide, and claims over times again by estimates for GPUs, and bounds the noise
+// under each threshold from below.
 #include "experiments/runner/run_experiment.hpp"
 
 #include <fmt/format.h>

@@ -15,8 +15,9 @@
 
 namespace footprint {
 
-/// Everything but the pictures. A claim is `undecided` where a figure is missing; a threshold without a figure has
-/// not passed. `runs` has the results of this experiment, or those of the members of this matrix.
+/// Everything but the pictures. A claim is `undecided` where a figure is missing, where it is over times of a GPU that
+/// no run was drawn on, or where that is expected; a threshold without a figure has not passed. `runs` has the results
+/// of this experiment, or those of the members of this matrix.
 [[nodiscard]] ExperimentReport judge(const Experiment& experiment, std::span<const Results> runs);
 
 /// For one experiment or one matrix. A limit on a single error or flicker that is no higher than what the reference's

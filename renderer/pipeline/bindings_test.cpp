@@ -6,6 +6,7 @@
 
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -116,14 +117,17 @@ TEST(TextureUnits, SharedMapsComeFirstWhereTheirEffectsAreOn) {
 
 // What the shared shaders read of a material's maps has a row: without one the name would not be declared.
 TEST(TextureUnits, EveryMapOfTheSharedShadersHasARow) {
-  const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}}, {});
   const std::regex lookup(
       R"(\b(?:texture|textureGrad|textureLod|texelFetch|fetch|fetchCoat)\((\w*_map|material_share),)");
-  std::size_t found = 0;
-  for (auto i = std::sregex_iterator(text.begin(), text.end(), lookup); i != std::sregex_iterator(); ++i, ++found) {
-    EXPECT_TRUE(test::says(text, "sampler2D " + (*i)[1].str() + ";"));
+  std::set<std::string> found;
+  for (const bool emitting : {false, true}) {
+    const std::string text = fragment_text({.effects = EffectSet{}.set(), .brdf = {}, .emitting = emitting}, {});
+    for (auto i = std::sregex_iterator(text.begin(), text.end(), lookup); i != std::sregex_iterator(); ++i) {
+      found.insert((*i)[1].str());
+      EXPECT_TRUE(test::says(text, "sampler2D " + (*i)[1].str() + ";"));
+    }
   }
-  EXPECT_GE(found, shared_maps().size());
+  EXPECT_EQ(found.size(), shared_maps().size());
 }
 
 TEST(BlockBindings, AreThoseOfTheShaders) {

@@ -9,6 +9,7 @@
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/base_surface.hpp"
 #include "tests/support/rendering.hpp"
+#include "tests/support/shadow_scenes.hpp"
 #include "tests/support/test_scenes.hpp"
 
 namespace footprint::testing {
@@ -71,6 +72,22 @@ TEST(EmittedLight, IsDrawnAgainForAnotherViewAndAnotherScene) {
   for (std::size_t i = 0; i < twice.texels.size(); ++i)
     if (i % 4 < 3) twice.texels[i] *= 2.0F;
   EXPECT_LT(largest_difference(renderer.frame(base_surface()), twice), 1e-5);
+}
+
+// The program of emitted light has none of the textures of shadows.
+TEST(EmittedLight, IsTheSameInTheShadow) {
+  Scene scene = box_over_floor();
+  scene.lights = {DirectionalLight{.direction = {0, 0, -1}, .illuminance = glm::vec3(3)}};
+  const Image dark = TestRenderer(scene, emitted_size).frame(base_surface());
+  scene.materials[0].emission = {0.5F, 0.25F, 0.125F};
+  TestRenderer renderer(scene, emitted_size);
+  ASSERT_TRUE(has(renderer.gpu_scene().effects(), Effect::cast_shadow));
+  const Image shining = renderer.frame(base_surface());
+  for (std::size_t i = 0; i < shining.texels.size(); i += 4) {
+    if (dark.texels[i + 3] < 1.0F) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(shining.texels[i + c] - dark.texels[i + c], scene.materials[0].emission[static_cast<int>(c)], 1e-5);
+  }
 }
 
 TEST(EmittedLight, IsNotCountedAsWork) {

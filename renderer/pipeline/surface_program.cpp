@@ -404,7 +404,7 @@ void SurfaceProgram::draw_batches(GpuScene& scene, const GpuMethod& method, cons
     const glm::mat3 rotation = world_to_camera(view.camera);
     gl::api().UniformMatrix3fv(to_camera_space, 1, GL_FALSE, glm::value_ptr(rotation));
   }
-  scene.bind_lights(program_, units, variant.area_lobes);
+  if (!variant.emitting) scene.bind_lights(program_, units, variant.area_lobes);  // light that is emitted meets none
   if (variant.area_lobes) scene.area_cosines().bind(units.unit("area_cosines"));
   if (environment_light && scene.visibility()) scene.visibility()->bind(units.unit("visibility_maps"));
   const GLint texels_location = program_.uniform("drawn_texels");

@@ -240,6 +240,28 @@ TEST(Lean, RoughnessInTheMomentsIsThatAtShadingTime) {
   EXPECT_THROW((void)probe_ndf(probed, {{0, 0, 1}}), Error);
 }
 
+// Of two roughnesses in equal shares: the mean of their variances, of them, or of their alphas.
+TEST(Lean, AveragesTheRoughnessAsAsked) {
+  Image roughness(8, 8, 2, 0.2F);
+  for (std::size_t i = 0; i < roughness.texels.size(); i += 4) roughness.texels[i] = 0.6F;
+  Material material = lobe_material(constant_normals(8, 8, {0.0F, 0.0F, 1.0F}), beckmann, 0.0F);
+  material.lobe_parameter.reset();
+  material.metallic_roughness_map = TextureMap{"roughness", std::make_shared<const Image>(roughness), {}};
+  const std::array<std::array<glm::vec4, 3>, 1> input{};
+  for (const auto& [averages, variance] :
+       {std::pair("variance", 0.25 * (0.04 * 0.04 + 0.36 * 0.36)), std::pair("roughness", 0.5 * 0.16 * 0.16),
+        std::pair("lobe", 0.5 * 0.2 * 0.2)}) {
+    for (const char* const shape : {"stretched", "shading"}) {
+      ProbedMethod probed = lean(material, {{"averages", averages}, {"roughness", shape}});
+      probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation));
+      EXPECT_NEAR(probe_method(probed, "return vec4(e.lobe.base);", input)[0].x / variance, 1.0, 1e-4) << averages;
+    }
+  }
+  ProbedMethod probed = lean(material, {{"averages", "lobe"}, {"roughness", "moments"}});
+  probed.effects.set(static_cast<std::size_t>(Effect::roughness_variation));
+  EXPECT_THROW((void)probe_ndf(probed, {{0, 0, 1}}), Error);
+}
+
 // What an effect or an option does not need is not stored.
 TEST(Lean, StoresWhatIsCalledFor) {
   const Material material = lobe_material(random_normals(4, 4, 0.5F, 8), ggx, 0.3F);
@@ -259,6 +281,7 @@ TEST(Lean, StoresWhatIsCalledFor) {
   EXPECT_EQ(channels({{"variant", "clean"}}, {Effect::normal_variation, Effect::diffuse}), 6);
   EXPECT_EQ(channels({}, {Effect::normal_variation, Effect::roughness_variation}), 6);
   EXPECT_EQ(channels({{"roughness", "moments"}}, {Effect::normal_variation, Effect::roughness_variation}), 5);
+  EXPECT_EQ(channels({{"averages", "lobe"}}, {Effect::normal_variation, Effect::roughness_variation}), 6);
 }
 
 }  // namespace

@@ -55,6 +55,11 @@ const PrefilteredTexture& declared(const FrameBuildJob& job, std::string_view na
   return *std::ranges::find(job.baked.textures, name, &PrefilteredTexture::name);
 }
 
+Conversion conversion_of(const Options& options) {
+  const std::string& word = options.word("conversion");
+  return word == "table" ? Conversion::table : word == "published" ? Conversion::published : Conversion::newton;
+}
+
 }  // namespace
 
 Settings settings_of(const Options& options) {
@@ -64,7 +69,7 @@ Settings settings_of(const Options& options) {
                         : j == "4" ? 4
                                    : 8,
           .camera_space = options.word("space") == "camera",
-          .table = options.word("conversion") == "table",
+          .conversion = conversion_of(options),
           .joint = options.word("specular") == "joint",
           .always_built = options.word("rebuild") == "always",
           .storage = parse_storage(options.word("storage"))};

@@ -19,12 +19,15 @@ inline constexpr std::string_view table_name = "xu_vmf_shortfalls", colours_name
 /// The scalar that says whether a material's map is in camera space: 1 or 0.
 inline constexpr std::string_view camera_space_name = "xu_vmf_in_camera_space";
 
+/// How |r| is computed from kappa: by Newton's steps, or from one of two tables.
+enum class Conversion { newton, table, published };
+
 /// The options that the bake and the passes read.
 struct Settings {
   bool adaptive;   ///< each footprint chooses its own number of parts
   int most_lobes;  ///< of a pixel, for one lobe of its facets: 1, 4 or 8 parts
   bool camera_space;
-  bool table;         ///< |r| of kappa from a table, otherwise by Newton's steps
+  Conversion conversion;
   bool joint;         ///< facets weigh by the luminance of their specular colour
   bool always_built;  ///< for every frame, otherwise only when an input has changed
   Storage storage;

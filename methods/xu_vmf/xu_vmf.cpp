@@ -35,14 +35,21 @@ std::vector<OptionSpec> option_table() {
               "What space=camera leaves out: texels of triangles that face away, or also those whose own normal does."),
           word_option("partition", {"azimuth", "latitude"},
                       "How the hemisphere is cut: 4 sectors, each in 2 rings, or 4 rings, each in 2 halves."),
-          word_option("variant", {"corrected", "published"},
-                      "Whether a lobe adds with the share of the footprint that it covers, or whole, as Algorithm 1 "
-                      "prints it."),
+          word_option("pole", {"middle", "up"},
+                      "What partition=latitude is about: the middle of the hemisphere, which its 4 parts surround as "
+                      "rings, or the y axis, which points up in camera space, in 4 bands of 45 degrees."),
+          word_option("variant", {"corrected", "published", "algorithm1"},
+                      "How lobes add: by their shares of the footprint with normalised densities, by equation 15 with "
+                      "the density of equation 7, or as Algorithm 1 prints it, without shares."),
           word_option("lobe", {"base", "vmf"},
                       "What a part reflects with: the scene's base lobe of the width that kappa says, or the paper's "
                       "von Mises-Fisher lobe."),
-          word_option("conversion", {"newton", "table"},
-                      "How |r| comes of kappa: by Newton's steps, or from a table of 1024 entries."),
+          word_option("masking", {"lobes", "footprint"},
+                      "What geometry=smith masks a lobe by: the facets of that lobe, or those of all lobes of the "
+                      "footprint, as LEADR does with its one lobe."),
+          word_option("conversion", {"newton", "table", "published"},
+                      "How |r| comes of kappa: by Newton's steps, from a table of 1024 entries over log kappa, or from "
+                      "one over kappa from 0 to 1023, beyond which lobes stay as wide as the last."),
           word_option("specular", {"separate", "joint"},
                       "Whether the map of specular colours is filtered on its own, or texels also weigh by the "
                       "luminance of theirs: what is bright and what is narrow are then filtered together."),
@@ -72,6 +79,13 @@ Image shortfall_table() {
     const double kappa = 1e-2 * std::pow(1e7, static_cast<double>(i) / (entries - 1));
     table.at(i, 0)[0] = static_cast<float>(vmf_shortfall(kappa));
   }
+  return table;
+}
+
+// |r| of kappa = 0, 1, ..., 1023: 1 x 1024 texels, as the paper's. Its range is not printed; steps of 1 are ours.
+Image length_table() {
+  Image table(1024, 1, 1);
+  for (int i = 0; i < table.width; ++i) table.at(i, 0)[0] = static_cast<float>(1.0 - vmf_shortfall(i));
   return table;
 }
 
@@ -143,7 +157,8 @@ void add_inputs(Prefiltered& out, Inputs& inputs, const Material& material, cons
   if (inputs.roughness_varies)
     add(xu_vmf::variances_name, std::move(inputs.variances), roughness_coordinates(material), true);
   if (inputs.colours_vary) add(xu_vmf::colours_name, std::move(inputs.weights), specular_coordinates(material), false);
-  if (settings.table) add(xu_vmf::table_name, shortfall_table(), {}, false);
+  if (settings.conversion == xu_vmf::Conversion::table) add(xu_vmf::table_name, shortfall_table(), {}, false);
+  if (settings.conversion == xu_vmf::Conversion::published) add(xu_vmf::table_name, length_table(), {}, false);
 }
 
 Prefiltered in_tangent_space(Inputs inputs, const Material& material, const xu_vmf::Settings& settings,

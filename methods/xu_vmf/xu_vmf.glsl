@@ -3,6 +3,7 @@
 //? include xu_vmf_conversion.glsl
 //? include xu_vmf_lobes.glsl
 //? include xu_vmf_parts.glsl if texture_arrays
+//? include xu_vmf_masking.glsl if masking_footprint and masking_shadowing and geometry_smith
 
 // Adds the lobes of the parts that a footprint needs, for each lobe of a facet. Facets without any lobe are flat.
 //
@@ -31,7 +32,7 @@ Effective effective(Footprints f) {
     } while (anotherRound(++rounds, walk.next < walk.parts));
 //? end
     if (e.count == first) {
-      addLobe(e.count, storedLobe(own, own.axis, own.shortfall, 1.0, 1.0));
+      addLobe(e.count, storedLobe(own, own.axis, own.shortfall, own.shortfall, 1.0, 1.0));
       e.covered = 1.0;
     }
 //? if multi_lobe
@@ -39,7 +40,7 @@ Effective effective(Footprints f) {
     int i = first;
     do {
       weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
-      shares[i].x *= own.weight / amountsOf(e.covered);  //? if lobes_listed
+      shares[i].x *= own.weight / amountsOf(e.covered);  //? if lobes_listed or masking_footprint
     } while (++i < e.count);
     e.covered = 1.0;
 //? end
@@ -58,16 +59,31 @@ vec3 geometryAxis(vec3 normal, vec3 mean) {
   return mean;
 }
 
+// The geometry factor of a lobe. `of_all`: that of all lobes, if one masks another.
+float lobeFactor(Effective e, vec3 mean, float base, float of_all, vec3 h, vec3 wi, vec3 wo) {
+//? if masking_footprint and masking_shadowing and geometry_smith
+  if (facet_lobe_count == 0) return of_all;  //? if multi_lobe
+  return of_all;                             //? else
+//? end
+  return geometryFactor(base, geometryAxis(e.normal, mean), h, wi, wo);
+}
+
+float factorOfAll(Effective e, vec3 wi, vec3 wo) {
+  return footprintFactor(e.count, wi, wo);  //? if masking_footprint and masking_shadowing and geometry_smith
+  return 1.0;                               //? else
+}
+
 // One loop for both terms, because reading a lobe is expensive.
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   float sum = 0.0;
   float cosine = 0.0;  // of the facets' unit normals with the light
+  float of_all = factorOfAll(e, wi, wo);
   int count = lobesHere(e.count);
   int i = 0;
   do {
     Lobe lobe = lobeOf(lobes[i], weights[i]);
-    sum += lobe.amount * densityOf(lobe, h) * geometryFactor(lobe.base, geometryAxis(e.normal, lobe.mean), h, wi, wo);
+    sum += lobe.amount * densityOf(lobe, h) * lobeFactor(e, lobe.mean, lobe.base, of_all, h, wi, wo);
     cosine += weights[i].y * max(dot(lobe.mean, wi), 0.0);
   } while (++i < count);
   Reflected r;
@@ -118,7 +134,7 @@ NormalLobe normalLobe(Effective e, int i) {
 }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
-  return geometryFactor(lobe.base, geometryAxis(e.normal, lobe.axis), h, wi, wo);
+  return lobeFactor(e, lobe.axis, lobe.base, factorOfAll(e, wi, wo), h, wi, wo);
 }
 
 vec3 meanNormal(Effective e) {

@@ -6,6 +6,14 @@ int cellOf(vec3 r) {
   int sector = abs(r.x) >= abs(r.y) ? (r.x >= 0.0 ? 0 : 2) : (r.y > 0.0 ? 1 : 3);
   return 2 * sector + (dot(r.xy, r.xy) >= 0.25 * dot(r, r) ? 1 : 0);
 }
+//? elif pole_up
+// Four bands of 45 degrees of latitude about the y axis, each split into its right and left half.
+int cellOf(vec3 r) {
+  const float root_half = 0.70710678;
+  float sine = r.y * inversesqrt(max(dot(r, r), 1e-30));
+  int band = sine < -root_half ? 0 : sine < 0.0 ? 1 : sine < root_half ? 2 : 3;
+  return 2 * band + (r.x >= 0.0 ? 0 : 1);
+}
 //? else
 // Four rings of equal width over the disc, each split into halves.
 int cellOf(vec3 r) { return 2 * min(int(4.0 * sqrt(dot(r.xy, r.xy) / max(dot(r, r), 1e-30))), 3) + (r.x >= 0.0 ? 0 : 1); }

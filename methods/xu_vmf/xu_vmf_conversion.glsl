@@ -34,4 +34,13 @@ float tabulatedShortfall(sampler2D table, float kappa) {
   return mix(texelFetch(table, ivec2(below, 0), 0).r, texelFetch(table, ivec2(below + 1, 0), 0).r,
              position - float(below));
 }
+//? elif conversion_published
+// q = 1 - |r| from the table that the paper describes: |r| over kappa.
+float tabulatedShortfall(sampler2D table, float kappa) {
+  int last = textureSize(table, 0).x - 1;
+  float position = min(kappa, float(last));
+  int below = clamp(int(position), 0, last - 1);
+  return 1.0 - mix(texelFetch(table, ivec2(below, 0), 0).r, texelFetch(table, ivec2(below + 1, 0), 0).r,
+                   position - float(below));
+}
 //? end

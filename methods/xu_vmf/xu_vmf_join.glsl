@@ -9,7 +9,7 @@ layout(location = 1) out vec4 guard;  // 1 - |r|, unaffected by the rounding of 
 
 layout(binding = 0) uniform sampler2D normals;  // weight in w: 0 if invalid  //? if normal_variation
 layout(binding = 1) uniform sampler2D variances;  // of the base lobe's slopes  //? if roughness_variation
-layout(binding = 2) uniform sampler2D shortfalls;  //? if conversion_table
+layout(binding = 2) uniform sampler2D shortfalls;  //? if not conversion_newton
 //? if specular_joint and specular_variation
 layout(binding = 3) uniform sampler2D colours;  // luminance of the specular colour, over the largest
 //? end
@@ -53,8 +53,8 @@ float weightOf(sampler2D map) { return texelOf(map, 0).r; }
 uniform int own_lobe;  // of a facet; -1: only its normal  //? if multi_lobe
 
 float shortfall(float kappa) {
-  return tabulatedShortfall(shortfalls, kappa);  //? if conversion_table
-  return shortfallOf(kappa);                     //? else
+  return shortfallOf(kappa);                     //? if conversion_newton
+  return tabulatedShortfall(shortfalls, kappa);  //? else
 }
 
 void main() {

@@ -51,8 +51,8 @@ struct Effective {
 // accesses to an array by a variable index are expensive.
 vec4 lobes[most_lobes];    // mean direction, and width: the parameter of the base lobe, or kappa
 vec2 weights[most_lobes];  // of the density, and of the cosine of the mean normal
-//? if lobes_listed
-vec2 shares[most_lobes];   // of the footprint's facets (as published: the amount), and the parameter of their lobe
+//? if lobes_listed or masking_footprint
+vec2 shares[most_lobes];   // the amount of the lobe, and the parameter of its facets' lobe
 //? end
 
 struct Lobe {
@@ -76,10 +76,17 @@ float densityOf(Lobe lobe, vec3 h) {
 //? end
 }
 
-// The divisor of the amounts.
+// The divisor of the amounts. Algorithm 1 has none: it adds lobes without the weights of equation 15.
 float amountsOf(float covered) {
-  return 1.0;      //? if variant_published
+  return 1.0;      //? if variant_algorithm1
   return covered;  //? else
+}
+
+// The integral of a lobe's density over the integral that facets give it. Line 25 of Algorithm 1 evaluates equation 7,
+// which leaves the divisor of equation 6 out.
+float printedEnergy(float kappa) {
+  return 1.0;                  //? if variant_corrected or lobe_base
+  return oneMinusExp2(kappa);  //? else
 }
 
 // A lobe as stored in the arrays.
@@ -92,15 +99,16 @@ struct StoredLobe {
 void addLobe(inout int count, StoredLobe added) {
   lobes[count] = added.lobe;
   weights[count] = added.weights;
-  shares[count] = added.share;  //? if lobes_listed
+  shares[count] = added.share;  //? if lobes_listed or masking_footprint
   ++count;
 }
 
-// `amount`: the factor of the lobe as published; otherwise the share is used.
-StoredLobe storedLobe(FacetsLobe own, vec3 mean, float q, float share, float amount) {
-  float kappa = kappaOf(q);
+// `q`: 1 - |r| of the mean lobe; `width_q`: that of the lobe that reflects, which differs in Algorithm 1 alone, as does
+// `amount`, the factor of its density.
+StoredLobe storedLobe(FacetsLobe own, vec3 mean, float q, float width_q, float share, float amount) {
+  float kappa = kappaOf(width_q);
   float base = lobeOfKappa(kappa);
-  amount = share;  //? if not variant_published
+  amount *= printedEnergy(kappa);
 //? if sampling_texel
   // The lobe of the single texel that was drawn is that of a facet. The roughness map may have drawn another one.
   own.shortfall = q;

@@ -40,12 +40,24 @@ vec3 axisOf(vec3 r) {
 // The lobe of a part that counts with `weight`, unless the part covers next to nothing.
 bool hasLobe(Part part, float weight) { return part.r.w >= least_share && weight > 0.0; }
 
+// 1 - |r| of a vector of length `size`, with the limits of a lobe.
+float lobeShortfall(float size, float least) {
+  return clamp(shortfallOfMean(size, least), 1.0 / largest_exponent, 1.0);
+}
+
 StoredLobe lobeOfPart(FacetsLobe own, Part part, float weight) {
+  float share = weight * part.r.w;
   vec3 r = part.r.xyz / part.r.w;
   float size = length(r);
-  float q = shortfallOfMean(size, part.least / part.r.w);
+  float q = lobeShortfall(size, part.least / part.r.w);
   vec3 mean = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
-  return storedLobe(own, mean, clamp(q, 1.0 / largest_exponent, 1.0), weight * part.r.w, weight);
+//? if variant_algorithm1
+  // Line 24 takes the vector as fetched, which is w times the mean, and line 11 adds the lobe whole.
+  float fetched_q = lobeShortfall(length(part.r.xyz), part.least + 1.0 - part.r.w);
+  return storedLobe(own, mean, q, fetched_q, share, weight);
+//? else
+  return storedLobe(own, mean, q, q, share, share);
+//? end
 }
 
 //? if sampling_frame and not j_1
@@ -129,7 +141,7 @@ struct Walk {
   int next;  // next part; the walk ends at `parts`
   int parts;
   Probe probe;  //? if not several_probes
-//? if j_adaptive and thresholds_blended
+//? if j_adaptive and (thresholds_blended or variant_algorithm1)
   float coarse_weight, cell_weight;  // what the hemisphere leaves to coarse parts, and a coarse part to its cells
 //? end
 };
@@ -154,7 +166,8 @@ Part partUnder(Walk walk, int part) {
 // How far one lobe serves a part, from 0 to 1. Algorithm 1 steps at the threshold. Cells and empty parts are not split.
 float unityOf(Part part, int i) {
   if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
-  float size = length(part.r.xyz) / part.r.w;
+  float size = length(part.r.xyz);             //? if variant_algorithm1
+  float size = length(part.r.xyz) / part.r.w;  //? else
   float threshold = i == 0 ? option_eps0 : option_eps1;
   return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);  //? if thresholds_blended
   return size > threshold ? 1.0 : 0.0;                      //? else
@@ -169,12 +182,33 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) {
   walk.next = 0;
   walk.parts = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
   walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);  //? if not several_probes
-//? if j_adaptive and thresholds_blended
+//? if j_adaptive and (thresholds_blended or variant_algorithm1)
   walk.coarse_weight = 0.0;
   walk.cell_weight = 0.0;
 //? end
   return walk;
 }
+
+//? if j_adaptive and variant_algorithm1
+// Lines 6 to 16 as printed: every coarse part that is not concentrated adds the first four cells (lines 9 and 10), not
+// its own two, and the other four cells are never read. The walk visits these cells once, after the coarse parts; their
+// weight is the number of coarse parts that add them.
+void printedStep(inout Walk walk, int i, inout float weight) {
+  float unity = weight;
+  bool is_coarse = i % 3 == 1;
+  if (i == 0) {
+    walk.coarse_weight = 1.0 - unity;
+    walk.next = unity >= 1.0 ? walk.parts : 1;
+  } else if (is_coarse) {
+    weight = walk.coarse_weight * unity;
+    walk.cell_weight += walk.coarse_weight * (1.0 - unity);
+    walk.next = i < 10 ? i + 3 : walk.cell_weight > 0.0 ? 2 : walk.parts;
+  } else {
+    weight = walk.cell_weight;
+    walk.next = i == 3 ? 5 : i == 6 ? walk.parts : i + 1;
+  }
+}
+//? end
 
 Part nextPart(inout Walk walk, out float weight) {
   int i = walk.next;
@@ -185,9 +219,13 @@ Part nextPart(inout Walk walk, out float weight) {
 //? if j_adaptive
   weight = unityOf(part, i);
   int beyond = beyondPart(i);
+//? end
+//? if j_adaptive and variant_algorithm1
+  printedStep(walk, i, weight);
+//? elif j_adaptive
   if (weight >= 1.0) walk.next = beyond;
 //? end
-//? if j_adaptive and thresholds_blended
+//? if j_adaptive and thresholds_blended and not variant_algorithm1
   float unity = weight;
   bool is_cell = beyond == i + 1;
   float whole = i == 0 ? 1.0 : is_cell ? walk.cell_weight : walk.coarse_weight;

@@ -41,14 +41,6 @@ struct Job {
 
 Prefiltered mean_normal(const Job& job) { return bake_mean_normal(job.material, job.storage, job.effects); }
 
-// The diffuse term reads the mean normal; of detail layers only the slopes are stored.
-Prefiltered slope_moments(const Job& job) {
-  const bool mean_normal = has(job.effects, Effect::diffuse) && !has(job.effects, Effect::normal_layers);
-  const bool scalar = job.options.word("variant") == "clean";
-  return bake_slopes(job.material, job.options, job.effects,
-                     {.variant = scalar ? SlopeVariant::scalar : SlopeVariant::full, .mean_normal = mean_normal});
-}
-
 Prefiltered mean_lobe(const Job& job) {
   if (!has(job.effects, Effect::roughness_variation)) return {};
   if (is_coarse(job.storage)) {
@@ -58,6 +50,38 @@ Prefiltered mean_lobe(const Job& job) {
   }
   return {.textures = {make_texture("mean_lobe", mip_chain(lobe_parameter_map_of(job.material)), job.storage,
                                     roughness_coordinates(job.material))}};
+}
+
+// What the mip chain of a varying roughness averages.
+Prefiltered averaged_roughness(const Job& job) {
+  const std::string& averages = job.options.word("averages");
+  if (averages != "variance" && job.options.word("roughness") == "moments") {
+    throw Error(ErrorKind::usage, "averages=" + averages,
+                "excludes roughness=moments, whose moments contain each texel's own variance",
+                "give roughness=stretched or roughness=shading");
+  }
+  if (averages == "roughness") return bake_mean_roughness(job.material, job.storage, job.effects);
+  return averages == "lobe" ? mean_lobe(job) : Prefiltered{};
+}
+
+// The diffuse term reads the mean normal; of detail layers only the slopes are stored.
+Prefiltered slope_moments(const Job& job) {
+  const bool mean_normal = has(job.effects, Effect::diffuse) && !has(job.effects, Effect::normal_layers);
+  const bool scalar = job.options.word("variant") == "clean";
+  Prefiltered roughness = averaged_roughness(job);
+  Prefiltered out = bake_slopes(job.material, job.options, job.effects,
+                                {.variant = scalar ? SlopeVariant::scalar : SlopeVariant::full,
+                                 .mean_normal = mean_normal,
+                                 .lobe_variance = job.options.word("averages") == "variance"});
+  append(out.textures, std::move(roughness.textures));
+  return out;
+}
+
+OptionSpec slope_averages_option() {
+  return word_option("averages", {"variance", "roughness", "lobe"},
+                     "What of a varying base lobe the mip chain averages: its slope variance, as moments do; the "
+                     "perceptual roughness, as a texture stores it; or the lobe's own parameter (exponent, alpha, "
+                     "kappa).");
 }
 
 Prefiltered finest_roughness(const Job& job) {
@@ -97,7 +121,7 @@ constexpr std::array<Input, 9> inputs{
      {"slope_moments", slope_moments,
       [] {
         return std::vector{float_storage_option(), slope_roughness_option(), steepest_slope_option(),
-                           slope_variant_option()};
+                           slope_variant_option(), slope_averages_option()};
       }},
      {"mean_roughness", [](const Job& job) { return bake_mean_roughness(job.material, job.storage, job.effects); },
       any_blocks},

@@ -208,7 +208,8 @@ Prefiltered bake_slopes(const Material& material, const Options& options, const 
     add_textures("layer", slope_moment_chain(layer, no_variance, steepest), {}, stored.variant, storage,
                  layer_coordinates(material), out);
   }
-  if (!in_moments) append(out.textures, bake_lobe_variance(material, storage, effects).textures);
+  if (!in_moments && stored.lobe_variance)
+    append(out.textures, bake_lobe_variance(material, storage, effects).textures);
   return out;
 }
 

@@ -63,18 +63,20 @@ inline constexpr int slope_x = 0, slope_y = 1, slope_xx = 2, slope_xy = 3, slope
 enum class SlopeVariant { full, scalar };
 
 /// The moments that a method stores. `mean_normal`: also the mean of the unit normals, not renormalised.
+/// `lobe_variance`: also the base lobe's slope variance, unless the moments include it.
 struct StoredSlopes {
   SlopeVariant variant = SlopeVariant::full;
   bool mean_normal = false;
+  bool lobe_variance = true;
 };
 
 /// The textures that footprint_slopes.glsl reads, for options with the three specs above.
 /// If normals vary: `slope_moments` has (Bx, By, Mxx, Myy), or (Bx, By, Mxx + Myy) for the scalar variant.
 /// `slope_rest`, of the same size, has Mxy (full variant) and the mean normal if stored; without either it is omitted.
 /// `layer_moments` and `layer_rest` describe a bump layer in the same way, without a normal.
-/// `lobe_variance` (bake_lobe_variance) is present if the roughness varies and is not part of the moments.
-/// A note counts the texels that are steeper than `steepest`. Throws Error (usage) if roughness=moments is combined
-/// with maps of different sizes or coordinates.
+/// `lobe_variance` (bake_lobe_variance) is present if it is stored, the roughness varies and is not part of the
+/// moments. A note counts the texels that are steeper than `steepest`. Throws Error (usage) if roughness=moments is
+/// combined with maps of different sizes or coordinates.
 [[nodiscard]] Prefiltered bake_slopes(const Material& material, const Options& options, const EffectSet& effects,
                                       const StoredSlopes& stored);
 

@@ -2,7 +2,8 @@
 // a bump layer, and the lobe of common_slopes.glsl over them. The flag `with_mean_normal` says whether the textures
 // include the mean normal, for a diffuse term over one map only.
 //? include common_slopes.glsl
-//? include lobe_variance.glsl if not normal_variation or not roughness_moments
+//? include lobe_variance.glsl if averages_variance and (not normal_variation or not roughness_moments)
+//? include mean_roughness.glsl if averages_roughness
 
 // As `fetch`, for two textures of the same size, in one loop over the probes.
 void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
@@ -67,8 +68,11 @@ FilteredSlopes filteredSlopes(Footprints f) {
 
 // The slope variance of the base lobe that the moments do not include.
 float addedVariance(Footprints f) {
-  return 0.0;              //? if normal_variation and roughness_moments
-  return baseVariance(f);  //? else
+  return 0.0;                                            //? if normal_variation and roughness_moments
+  return baseVariance(f);                                //? elif averages_variance
+  return lobeVariance(baseLobe(f));                      //? elif averages_roughness
+  return lobeVariance(fetch(mean_lobe, f.roughness).r);  //? elif roughness_variation
+  return lobeVariance(lobe_cutoff.x);                    //? else
 }
 
 // The lobe over the footprint of a pixel.

@@ -26,6 +26,7 @@ EffectSet effects_of_map(const Material& material) {
   set.set(static_cast<std::size_t>(Effect::roughness_variation), width_map(material) != nullptr);
   set.set(static_cast<std::size_t>(Effect::specular_variation), material.specular_map.has_value());
   set.set(static_cast<std::size_t>(Effect::multi_lobe), !material.lobes.empty());
+  set.set(static_cast<std::size_t>(Effect::masking_shadowing), material.brdf.geometry != GeometryTerm::none);
   return set;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/lobes/convolution.hpp"
 
 namespace footprint {
 namespace {
@@ -429,14 +430,6 @@ Image to_rgba(const Image& stored) {
     if (alpha) out[3] = clamped_to_unit(in.back());
   };
   return mapped(stored, 4, write, 1.0F);
-}
-
-Lobe convolved(const Lobe& base, double kappa) {
-  const double own = base.parameter;
-  if (base.distribution == NormalDistribution::blinn_phong || base.distribution == NormalDistribution::vmf)
-    return {base.distribution, kappa * own / (kappa + own)};
-  const double alpha = std::sqrt(own * own + 2.0 / kappa);
-  return {base.distribution, base.distribution == NormalDistribution::ggx ? std::min(alpha, 1.0) : alpha};
 }
 
 void spread_normals(const TextureMap& kappa, Material& material) {

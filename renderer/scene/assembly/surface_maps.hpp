@@ -108,16 +108,9 @@ void scale_slopes(Image& normals, double strength);
 /// Four channels, each clamped to [0, 1], from one (grey), two (grey, alpha), three or four.
 [[nodiscard]] Image to_rgba(const Image& stored);
 
-/// The effective lobe of facets with the lobe `base` whose normals follow a von Mises-Fisher distribution of
-/// concentration `kappa`: s' = kappa s / (kappa + s) for exponents s (Xu et al. 2017, equations 11 to 13). The same sum
-/// of variances, 1 / s' = 1 / s + 1 / kappa, holds for the kappa of `vmf`, and alpha'^2 = alpha^2 + 2 / kappa for
-/// `beckmann` and `ggx`, whose alpha is at most 1. kappa: above 0.
-[[nodiscard]] Lobe convolved(const Lobe& base, double kappa);
-
-/// Replaces the lobe of each texel by its effective lobe. The finer of both grids stays, with the nearest texel of the
-/// other.
-/// kappa: 1 channel, above 0.
-/// Throws Error (usage): the material has several lobes, or a map of their width with other coordinates.
+/// Replaces the lobe of each texel by its effective lobe (`convolved`). The finer of both grids stays, with the nearest
+/// texel of the other. kappa: 1 channel, above 0. Throws Error (usage): the material has several lobes, or a map of
+/// their width with other coordinates.
 void spread_normals(const TextureMap& kappa, Material& material);
 
 }  // namespace footprint

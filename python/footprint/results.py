@@ -11,6 +11,7 @@ from footprint.program import Error
 FORMATS = {
     "results.json": "footprint-results/2",
     "matrix.json": "footprint-matrix/1",
+    "region.json": "footprint-region/1",
     "recommend.json": "footprint-recommend/1",
     "score.json": "footprint-score/1",
     "cost.json": "footprint-cost/1",

@@ -1,5 +1,5 @@
-// The fields of results.json, matrix.json, ndf.json and recommend.json that are not the members of a structure as they
-// are, listed once for the writer, the reader (json_archive.hpp) and the schemas of docs/.
+// The fields of results.json, matrix.json, region.json, ndf.json and recommend.json that are not the members of a
+// structure as they are, listed once for the writer, the reader (json_archive.hpp) and the schemas of docs/.
 #pragma once
 
 #include <charconv>
@@ -8,6 +8,7 @@
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
 #include "results/report/recommendation.hpp"
+#include "results/report/region_report.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -168,6 +169,19 @@ void fields(auto& archive, const MatrixResults& value) {
   archive("experiment", value.report);
   archive("left_out", value.left_out);
   archive("members", value.members);
+}
+
+void fields(auto& archive, const RegionReport& value) {
+  archive("schema", "footprint-region/1");
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("experiment", value.experiment);
+  archive("title", value.title);
+  archive("file", value.file);
+  archive("quick", value.quick);
+  archive("axes", value.axes);
+  archive("settings", value.settings);
+  archive("claims", value.claims);
 }
 
 void fields(auto& archive, const Recommendation& value) {

@@ -36,7 +36,6 @@ struct RegionClaim {
 
 /// The content of region.json.
 struct RegionReport {
-  std::string schema = "footprint-region/1";
   ToolInfo tool = {};
   BackendInfo backend = {};
   std::string experiment = {}, title = {}, file = {};

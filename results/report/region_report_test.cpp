@@ -33,9 +33,10 @@ std::string sentence(std::vector<Verdict> outcomes, Verdict stated = no) {
 TEST(Region, SentencesNameWhatRestrictsAClaim) {
   EXPECT_EQ(sentence({yes, yes, yes, no, no, no}),
             "True in 3 of 6 settings, all of them with distance 1 or 2; at the stated setting it is false.");
-  EXPECT_EQ(sentence({no, yes, no, yes, no, no}),
-            "True in 2 of 6 settings, all of them with distance 1 or 2 and lean:storage=fp16; at the stated setting it is "
-            "false.");
+  EXPECT_EQ(
+      sentence({no, yes, no, yes, no, no}),
+      "True in 2 of 6 settings, all of them with distance 1 or 2 and lean:storage=fp16; at the stated setting it is "
+      "false.");
   EXPECT_EQ(sentence({yes, no, no, yes, yes, no}, yes), "True in 3 of 6 settings; at the stated setting it is true.");
   EXPECT_EQ(sentence({no, no, no, no, no, no}, yes), "True in 0 of 6 settings; at the stated setting it is true.");
   EXPECT_EQ(sentence({yes, open, yes, open, yes, yes}, open),

@@ -94,7 +94,12 @@ std::string region_sentence(const RegionReport& report, const RegionClaim& claim
   return fmt::format("{}; {}.", text, stated_words(claim.stated));
 }
 
-std::string region_json(const RegionReport& report) { return json_text(to_json_value(report), 2) + "\n"; }
+std::string region_json(const RegionReport& report) {
+  auto json = to_json_value(report);
+  for (std::size_t i = 0; i < report.claims.size(); ++i)
+    json["claims"][i]["sentence"] = region_sentence(report, report.claims[i]);
+  return json_text(json, 2) + "\n";
+}
 
 std::string region_table(const RegionReport& report) {
   std::string text = fmt::format("# {}\n\n{}\n", markdown_escaped(heading_of(report)), lede_of(report));

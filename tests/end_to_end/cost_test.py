@@ -3,14 +3,12 @@
 import csv
 import json
 import os
-import pathlib
 import subprocess
 import unittest
 
-from whole_runs import PROGRAM, SOURCE, WholeRunTest
+from whole_runs import PROGRAM, SOURCE, WholeRunTest, program_with
 
 SCENE = ["ribbed_plane", "--size", "32x32", "--distance", "2"]
-PROGRAM_BYTES = pathlib.Path(PROGRAM).read_bytes()
 METHODS = ["direct", "toksvig", "lean", "tan_gmm:n=1", "tan_gmm:n=2", "tan_gmm:n=4"]
 
 
@@ -161,23 +159,11 @@ class Costs(WholeRunTest):
                        capture_output=True, check=True, timeout=300)
         self.assertEqual(self.costs_in("merged"), costs)
 
-    def program_with(self, shader, old, new):
-        """A copy of the program in which the text of a shader has `new` for `old`, in place of its first comment."""
-        text = (SOURCE / shader).read_bytes()
-        head = text[:text.find(b"*/\n") + 3] if text.startswith(b"/*") else b""
-        changed = text[len(head):].partition(b"//?")[2].replace(old, new)
-        self.assertIn(new, changed)
-        self.assertEqual(PROGRAM_BYTES.count(text), 1)
-        path = self.folder / "program"
-        path.write_bytes(PROGRAM_BYTES.replace(text, (head + b"//?" + changed).ljust(len(text))))
-        path.chmod(0o755)
-        return path
-
     def test_the_quick_check_notices_one_more_texture_fetch(self):
         # The value that it reads changes nothing: no length of a mean normal exceeds 1.
         line = b"  vec4 mean = meanNormal(f);\n"
         more = line + b"  f.normal.uv += 0.25;\n  mean.w = min(mean.w, 2.0 + fetch(mean_normal, f.normal).x);\n"
-        done, failed = self.check("more", "quick", self.program_with("methods/toksvig/toksvig.glsl", line, more))
+        done, failed = self.check("more", "quick", program_with(self.folder, "methods/toksvig/toksvig.glsl", line, more))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(len(failed), 1, failed)
         self.assertIn("threshold gpu_cost(toksvig): at most 0.37494, measured ", failed[0])

@@ -57,6 +57,21 @@ class WholeRunTest(unittest.TestCase):
         self.assertIn(done.returncode, (0, 77), done.stderr)
 
 
+def program_with(folder, shader, old, new):
+    """A copy of the program in `folder` in which the text of a shader has `new` for `old`, in place of its first comment."""
+    text = (SOURCE / shader).read_bytes()
+    head = text[:text.find(b"*/\n") + 3] if text.startswith(b"/*") else b""
+    changed = text[len(head):].partition(b"//?")[2]
+    assert old in changed, f"{shader} has no {old}"
+    changed = (head + b"//?" + changed.replace(old, new)).ljust(len(text))
+    program = pathlib.Path(PROGRAM).read_bytes()
+    assert len(changed) == len(text) and program.count(text) == 1, f"{shader}: no room for {new}, or not in the program"
+    path = folder / "program"
+    path.write_bytes(program.replace(text, changed))
+    path.chmod(0o755)
+    return path
+
+
 def results_of(folder):
     return json.loads((folder / "results.json").read_text(encoding="utf-8"))
 

@@ -215,6 +215,31 @@ class Document(Tree):
         self.assertIn("0.01 against 0.02 | reproduced |", section)
         self.assertEqual(self.faults(), [])
 
+    def test_regions_are_shown_and_stay_until_they_are_measured_again(self):
+        claim = {"name": "c", "outcomes": ["reproduced", "not_reproduced", "undecided", "reproduced"], "sentence": "True in 2 of 4."}
+        region = {"axes": [{"key": "size", "values": ["8x8", "9x9"]}, {"key": "distance", "values": ["1", "2"]}],
+                  "settings": 4 * [{}], "claims": [claim]}
+        folder = self.folder / "out" / f"{NAME}.region"
+        (folder / "stated").mkdir(parents=True)
+        (folder / "region.json").write_text(json.dumps(region), encoding="utf-8")
+        (folder / "stated/results.json").write_text("{}", encoding="utf-8")  # is no result of an experiment of its own
+
+        def section():
+            done = script("reproduction", self.folder / "out", self.folder / "docs")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            page = (self.folder / "docs/results/reproduction/tan2005.md").read_text(encoding="utf-8")
+            return page[page.index(f"### `{NAME}`"):].split("\n### ")[0]
+
+        first = section()
+        self.assertIn("**Region** of 4 settings: size 8x8, 9x9; distance 1, 2.", first)
+        self.assertIn("| `c` | True in 2 of 4. | ●○ –● |", first)
+        shutil.rmtree(folder)
+        self.assertEqual(section(), first)
+        shutil.rmtree(self.folder / "out" / NAME)
+        self.write("tan2005_fig5", results(0.01, 0.02))
+        self.assertEqual(section(), first)
+        self.assertEqual(self.faults(), [])
+
     def test_claims_are_counted_by_their_source(self):
         main = self.folder / "docs/results/reproduction.md"
         text = main.read_text(encoding="utf-8")

@@ -534,5 +534,26 @@ class AccuracyVsTime(InFolder):
         self.assertEqual(len(self.script.planned(self.script.EXPERIMENTS)), 15)
 
 
+class MethodFigures(InFolder):
+    """Documents print figures of methods from one file."""
+
+    def stale(self):
+        done = subprocess.run([sys.executable, SOURCE / "scripts/doc_pictures", "--check", self.folder],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (1 if done.stdout else 0, ""))
+        return [line.split(":")[0] for line in done.stdout.splitlines()]
+
+    def test_documents_have_the_figures_of_the_file(self):
+        for file in [SOURCE / "README.md", SOURCE / "results/methods.json", *SOURCE.glob("methods/*/README.md")]:
+            copy = self.folder / file.relative_to(SOURCE)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(file, copy)
+        self.assertEqual(self.stale(), [])
+        views = json.loads((self.folder / "results/methods.json").read_text(encoding="utf-8"))
+        views["carved_disk"]["methods"]["leadr"]["ratio_to_direct"] *= 9
+        (self.folder / "results/methods.json").write_text(json.dumps(views), encoding="utf-8")
+        self.assertEqual(self.stale(), ["README.md", "methods/leadr/README.md"])
+
+
 if __name__ == "__main__":
     unittest.main()

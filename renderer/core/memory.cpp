@@ -2,6 +2,7 @@
 #include "renderer/core/memory.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -108,6 +109,13 @@ std::optional<AddressSpace> limited_address_space(const fs::path& root) {
     return AddressSpace{limit, limit - std::min(limit, own_bytes(root, "VmSize:"))};
   }
   return {};
+}
+
+void limit_growth(std::uint64_t bytes) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, own_bytes("/", "VmSize:") + bytes);
+  setrlimit(RLIMIT_AS, &limit);
 }
 
 std::uint64_t available_memory(const fs::path& root) {

@@ -17,6 +17,10 @@ struct AddressSpace {
 /// The limit of the address space; none if it is unlimited. Files are read under `root`.
 [[nodiscard]] std::optional<AddressSpace> limited_address_space(const std::filesystem::path& root = "/");
 
+/// Lets this process's address space grow by `bytes` at most from here on, unless its limit is lower. Nothing if the
+/// system refuses.
+void limit_growth(std::uint64_t bytes);
+
 /// Bytes that this process can allocate without swapping: the least of MemAvailable in /proc/meminfo and what the
 /// limits of its control groups (versions 1 and 2, with all parents) and of its address space leave. The largest
 /// std::uint64_t if the system reports none of them. Files are read under `root`.

@@ -2,8 +2,8 @@
 #include "renderer/core/memory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -101,12 +101,7 @@ class LoweredLimit {
  public:
   explicit LoweredLimit(std::uint64_t more) {
     getrlimit(RLIMIT_AS, &before_);
-    std::ifstream status("/proc/self/statm");
-    std::uint64_t pages = 0;
-    status >> pages;
-    rlimit lowered = before_;
-    lowered.rlim_cur = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + more;
-    setrlimit(RLIMIT_AS, &lowered);
+    limit_growth(more);
   }
   LoweredLimit(const LoweredLimit&) = delete;
   LoweredLimit& operator=(const LoweredLimit&) = delete;
@@ -115,6 +110,22 @@ class LoweredLimit {
  private:
   rlimit before_{};
 };
+
+TEST(LimitGrowth, RefusesMoreAndLiftsNoLowerLimit) {
+  constexpr std::uint64_t mebibyte = 1 << 20;
+  const auto is_granted = [](std::uint64_t bytes) {
+    void* const found = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (found == MAP_FAILED) return false;
+    munmap(found, bytes);
+    return true;
+  };
+  ASSERT_TRUE(is_granted(512 * mebibyte));
+  const LoweredLimit limit(256 * mebibyte);
+  EXPECT_TRUE(is_granted(128 * mebibyte));
+  EXPECT_FALSE(is_granted(512 * mebibyte));
+  limit_growth(1024 * mebibyte);
+  EXPECT_FALSE(is_granted(512 * mebibyte));
+}
 
 TEST(RequireTexels, RefusesWhatTheAddressSpaceDoesNotHave) {
   constexpr std::uint64_t mebibyte = 1 << 20;

@@ -14,6 +14,7 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/core/memory.hpp"
 
 namespace footprint {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view form = "footprint-gpu/1";  // of the files
+constexpr std::uint64_t most_memory = std::uint64_t{4} << 30;  // of a compiler, which may unroll without an end
 constexpr std::uint32_t most_textures = 32, most_blocks = 9, most_attributes = 16;
 
 Error vulkan_error(const std::string& place, const std::string& message) {
@@ -238,12 +240,15 @@ void write_programs(std::span<const SpirvProgram> programs, const fs::path& fold
 }
 
 void compile_programs(const fs::path& folder) {
+  limit_growth(most_memory);
+  const std::string crash =
+      fmt::format("the driver's compiler crashed, or needs more than {}", readable_bytes(most_memory));
   const VulkanCompiler compiler = vulkan_compiler();
   write_file_atomically(folder / "device.txt", std::string_view(compiler.device));
   for (std::size_t i = 0; fs::exists(file_of(folder, i, "program")); ++i) {
     const fs::path outcome = file_of(folder, i, "outcome");
     if (fs::exists(outcome)) continue;
-    write_value(outcome, CompileOutcome{.stage = {}, .failure = "the driver's compiler was interrupted by a crash"});
+    write_value(outcome, CompileOutcome{.stage = {}, .failure = crash});
     write_value(outcome, outcome_of(compiler, value_of<SpirvProgram>(file_of(folder, i, "program"))));
   }
 }

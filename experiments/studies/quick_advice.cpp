@@ -88,6 +88,50 @@ std::optional<Candidate> candidate_of(const QuickAdvice& advice, const QuickMeth
   return candidate;
 }
 
+// What the logarithms of a level are of.
+constexpr std::array<std::string_view, 1 + std::tuple_size_v<LobeErrors>> input_names{
+    "mean alpha", "error of a texel's own lobe", "error of the mean normal's lobe", "error of the widened lobe",
+    "error of the stretched lobe"};
+
+// "mean alpha 0.62 at 2 texels per pixel, where the model knows 0.1 to 0.4" for each input beyond its range; by a
+// hundredth more, since both are rounded.
+std::vector<std::string> beyond_domain(const std::vector<std::vector<double>>& inputs, const QuickModel& model) {
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < input_names.size(); ++i) {
+    for (std::size_t level = 0; level < model.domain.size(); ++level) {
+      const auto& [least, most] = model.domain[level][i];
+      const double value = inputs[level][i];
+      if (value >= least - 0.01 && value <= most + 0.01) continue;
+      found.push_back(fmt::format("{} {:.2g} at {} texels per pixel, where the model knows {:.2g} to {:.2g}",
+                                  input_names[i], std::exp(value), model.texels_per_pixel[level], std::exp(least),
+                                  std::exp(most)));
+      break;  // one level says it
+    }
+  }
+  return found;
+}
+
+// Two predictions closer than this factor are in the wrong order for about one pair in twenty.
+double sure_factor(const QuickCalibration& own) { return own.order_factor * own.order_factor; }
+
+// Whether `direct` under the filter of the choice may be as accurate.
+bool is_direct_as_likely(const MaterialAdvice& own, const QuickModel& model) {
+  const Candidate& chosen = own.candidates[own.choice.chosen.value()];
+  const auto direct = std::ranges::find_if(own.candidates, [&](const Candidate& other) {
+    return other.method == "direct" && other.footprint == chosen.footprint;
+  });
+  if (direct == own.candidates.end() || chosen.method == "direct") return false;
+  return direct->error < chosen.error * sure_factor(*by_footprint(model.calibration, chosen.footprint));
+}
+
+void add_doubts(MaterialAdvice& own, const std::vector<std::vector<double>>& inputs, const QuickModel& model) {
+  if (const auto beyond = beyond_domain(inputs, model); !beyond.empty())
+    own.words.push_back(fmt::format("This map is outside what the model was fitted on: {}. Measure it without --quick.",
+                                    fmt::join(beyond, "; ")));
+  if (own.choice.chosen && is_direct_as_likely(own, model))
+    own.words.emplace_back("No filter (`direct`) may be as accurate: the model is too rough to decide.");
+}
+
 MaterialAdvice advice_of(const Material& material, const QuickAdvice& advice, const QuickQuestion& question,
                          const std::vector<const QuickMethod*>& methods) {
   const auto inputs = inputs_of(material, advice.model);
@@ -104,6 +148,7 @@ MaterialAdvice advice_of(const Material& material, const QuickAdvice& advice, co
   std::ranges::stable_sort(own.candidates, {}, [](const Candidate& c) { return c.cost.median; });
   own.choice = choose(own.candidates, advice.limits);
   own.words = advice_sentences(own, advice.limits);
+  add_doubts(own, inputs, advice.model);
   return own;
 }
 
@@ -132,8 +177,7 @@ std::string table_of(const MaterialAdvice& material, const std::string& gpu) {
 std::string trust_of(const QuickCalibration& own) {
   return fmt::format(
       "{}: of {} other scenes, half of the errors are within a factor of {:.2f}, and 80% between {:.2f} and {:.2f} "
-      "times "
-      "the prediction; {:.0f}% of pairs are in the right order, {:.0f}% of first places within 10% of the best\n",
+      "times the prediction; {:.0f}% of pairs are in the right order, {:.0f}% of first places within 10% of the best\n",
       own.footprint, own.scenes, own.median_factor, own.interval_80[0], own.interval_80[1], 100.0 * own.order_right,
       100.0 * own.choice_right);
 }
@@ -148,7 +192,28 @@ bool is_whole(const QuickModel& model) {
     };
     if (method.filters.empty() || !std::ranges::all_of(method.filters, is_known)) return false;
   }
-  return !model.methods.empty();
+  const auto is_level = [](const auto& level) { return level.size() == input_names.size(); };
+  return !model.methods.empty() && model.domain.size() == model.texels_per_pixel.size() &&
+         std::ranges::all_of(model.domain, is_level);
+}
+
+// The trust that both calibrations leave.
+QuickCalibration worse_of(QuickCalibration own, const QuickCalibration& other) {
+  own.scenes += other.scenes;
+  own.median_factor = std::max(own.median_factor, other.median_factor);
+  own.interval_80 = {std::min(own.interval_80[0], other.interval_80[0]),
+                     std::max(own.interval_80[1], other.interval_80[1])};
+  own.order_factor = std::max(own.order_factor, other.order_factor);
+  own.order_right = std::min(own.order_right, other.order_right);
+  own.choice_right = std::min(own.choice_right, other.choice_right);
+  return own;
+}
+
+void join_calibrations(QuickModel& model) {
+  for (QuickCalibration& own : model.calibration) {
+    if (const auto other = by_footprint(model.surfaces, own.footprint); other != model.surfaces.end())
+      own = worse_of(own, *other);
+  }
 }
 
 }  // namespace
@@ -157,7 +222,10 @@ QuickModel read_quick_model(const std::filesystem::path& file) {
   const auto json = nlohmann::ordered_json::parse(std::ifstream(file), nullptr, false);
   try {
     auto model = from_json_value<QuickModel>(json);
-    if (json.at("schema") == "footprint-quick-model/1" && is_whole(model)) return model;
+    if (json.at("schema") == "footprint-quick-model/1" && is_whole(model)) {
+      join_calibrations(model);
+      return model;
+    }
   } catch (const nlohmann::json::exception&) {  // as of a model that is not whole
   }
   throw Error(ErrorKind::machine, file.string(), "is not a whole footprint-quick-model/1", "install the program again");

@@ -2,11 +2,13 @@
 #include "experiments/studies/recommend.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -99,6 +101,30 @@ TEST(QuickAdvice, PredictionsWithinTheOrderFactorAreTied) {
   EXPECT_EQ(own.candidates.at(own.choice.chosen.value()).method, "tan_gmm:n=4");
 }
 
+TEST(QuickAdvice, SaysWhereAMapIsOutsideTheDomain) {
+  QuickModel model = small_model();
+  const std::array<double, 2> wide{-20, 20};
+  model.domain = {2, {{std::log(0.1), std::log(0.3)}, wide, wide, wide, wide}};  // of alpha, which is 0.25
+  const auto words = [&] {
+    return fmt::format(
+        "{}", fmt::join(quick_advice(scene_with_a_map(), model, among("direct,lean")).materials[0].words, " "));
+  };
+  EXPECT_EQ(words().find("outside"), std::string::npos);
+  model.domain[1][0][1] = std::log(0.2);
+  EXPECT_THAT(words(), HasSubstr("mean alpha 0.25 at 4 texels per pixel, where the model knows 0.1 to 0.2."));
+}
+
+TEST(QuickAdvice, SaysWhereNoFilterMayBeAsAccurate) {
+  QuickModel model = small_model();  // lean errs half as much as direct
+  const auto words = [&] {
+    return fmt::format(
+        "{}", fmt::join(quick_advice(scene_with_a_map(), model, among("direct,lean")).materials[0].words, " "));
+  };
+  EXPECT_EQ(words().find("No filter"), std::string::npos);
+  model.calibration.front().order_factor = 1.5;
+  EXPECT_THAT(words(), HasSubstr("No filter (`direct`) may be as accurate"));
+}
+
 TEST(QuickAdvice, NamesWhatTheModelLacks) {
   const QuickAdvice advice = quick_advice(scene_with_a_map(), small_model(), among("direct,lean,tan_gmm:n=3"));
   ASSERT_EQ(advice.left_out.size(), 1U);
@@ -138,6 +164,9 @@ TEST(QuickAdvice, RefusesADamagedModel) {
   damaged["calibration"].erase(0);
   EXPECT_TRUE(is_refused(damaged));
   damaged = model;
+  damaged["domain"][2].erase(0);
+  EXPECT_TRUE(is_refused(damaged));
+  damaged = model;
   damaged["methods"] = nlohmann::json::array();
   EXPECT_TRUE(is_refused(damaged));
   damaged["schema"] = "another/1";
@@ -162,6 +191,17 @@ TEST(QuickAdvice, TheModelOfThisBuildKnowsItsMethods) {
   for (const QuickMethod& method : model.methods) {
     EXPECT_NO_THROW((void)find_method(parse_methods(method.method).front().name));
     for (const QuickFilter& filter : method.filters) EXPECT_EQ(filter.weights.size(), 4U + 1U + 4U) << method.method;
+  }
+  const auto json =
+      nlohmann::json::parse(std::ifstream(std::filesystem::path(FOOTPRINT_SOURCE_FOLDER) / "results/quick_model.json"));
+  for (std::size_t i = 0; i < model.calibration.size(); ++i) {
+    const QuickCalibration& own = model.calibration[i];
+    for (const char* part : {"calibration", "surfaces"}) {
+      if (json[part].empty()) continue;
+      EXPECT_LE(own.interval_80[0], json[part][i]["interval_80"][0]) << part;
+      EXPECT_GE(own.interval_80[1], json[part][i]["interval_80"][1]) << part;
+      EXPECT_LE(own.order_right, json[part][i]["order_right"]) << part;
+    }
   }
   for (const QuickCalibration& own : model.calibration) EXPECT_GT(own.order_right, 0.5) << own.footprint;
 }

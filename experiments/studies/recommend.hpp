@@ -73,10 +73,14 @@ struct QuickModel {
   std::vector<int> texels_per_pixel;  ///< powers of two
   int scenes = 0;                     ///< that it was fitted on
   std::vector<QuickCalibration> calibration;
+  std::vector<QuickCalibration> surfaces = {};  ///< the same over generated surfaces
+  /// Per level, the range of the logarithms of mean alpha and of the lobe errors over the maps that it was fitted on.
+  std::vector<std::vector<std::array<double, 2>>> domain = {};
   std::vector<QuickMethod> methods;
 };
 
-/// Reads results/quick_model.json. Throws Error (machine): unreadable, or not such a document.
+/// Reads results/quick_model.json; each calibration becomes the worse of the two. Throws Error (machine): unreadable,
+/// or not such a document.
 [[nodiscard]] QuickModel read_quick_model(const std::filesystem::path& file);
 
 /// What is wanted of the model.
@@ -102,6 +106,7 @@ struct QuickAdvice {
 [[nodiscard]] double quick_prediction(const std::vector<double>& weights, std::size_t level,
                                       const std::vector<double>& log_inputs);
 
+/// A material's words say where its map lies outside the domain, and where `direct` may be as accurate as the choice.
 /// Throws Error (usage): the model has none of the methods, or not the GPU; no material has a normal map.
 [[nodiscard]] QuickAdvice quick_advice(const Scene& scene, QuickModel model, const QuickQuestion& question);
 

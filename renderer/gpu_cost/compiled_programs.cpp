@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view form = "footprint-gpu/1";  // of the files
+constexpr std::string_view form = "footprint-gpu/1";           // of the files
 constexpr std::uint64_t most_memory = std::uint64_t{4} << 30;  // of a compiler, which may unroll without an end
 constexpr std::uint32_t most_textures = 32, most_blocks = 9, most_attributes = 16;
 

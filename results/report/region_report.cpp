@@ -95,10 +95,9 @@ std::string region_sentence(const RegionReport& report, const RegionClaim& claim
 }
 
 std::string region_json(const RegionReport& report) {
-  auto json = to_json_value(report);
-  for (std::size_t i = 0; i < report.claims.size(); ++i)
-    json["claims"][i]["sentence"] = region_sentence(report, report.claims[i]);
-  return json_text(json, 2) + "\n";
+  RegionReport whole = report;
+  for (RegionClaim& claim : whole.claims) claim.sentence = region_sentence(report, claim);
+  return json_text(to_json_value(whole), 2) + "\n";
 }
 
 std::string region_table(const RegionReport& report) {

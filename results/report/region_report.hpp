@@ -29,6 +29,7 @@ struct RegionClaim {
   ClaimSource source = ClaimSource::ours;
   Verdict stated = Verdict::undecided;  ///< at the experiment's own setting
   std::vector<Verdict> outcomes = {};   ///< one per setting of the grid, in their order
+  std::string sentence = {};            ///< region_sentence; region_json sets it
 
   /// How many settings have an outcome.
   [[nodiscard]] std::size_t count(Verdict verdict) const;

@@ -64,7 +64,8 @@ TEST(Region, DocumentsHaveAnOutcomePerSetting) {
       document.at("claims").at(0).at("outcomes"),
       nlohmann::json({"reproduced", "not_reproduced", "not_reproduced", "undecided", "not_reproduced", "reproduced"}));
   EXPECT_EQ(document.at("claims").at(0).at("sentence"),
-            "True in 2 of 6 settings, undecided in 1; at the stated setting it is false.");
+            "True in 2 of 6 settings, all of them with distance 1 or 4, undecided in 1; at the stated setting it is "
+            "false.");
   EXPECT_EQ(document.at("settings").at(5).at("values").at("lean"), "lean:storage=fp16");
 }
 

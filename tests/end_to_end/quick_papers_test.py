@@ -11,14 +11,15 @@ FAULTS = {
         ["tan_under_toksvig"], "methods/tan_gmm/tan_gmm.glsl",
         b"float spread = max(filtered.w / filtered.x - dot(mean, mean), 0.0);", b"float spread = 0.0;"),
     "quick_xu2017": (
-        ["under_direct", "under_lean", "under_plain_lean"], "methods/xu_vmf/xu_vmf_parts.glsl",
-        b"float q = lobeShortfall(size, part.least / part.r.w);", b"float q = lobeShortfall(1.0, part.least / part.r.w);"),
+        ["under_direct", "under_lean", "under_plain_lean"], "methods/xu_vmf/xu_vmf.glsl",
+        b"e.covered += weight * part.r.w;", b"e.covered += 4.0 * weight * part.r.w;"),
     "quick_iwasaki2012": (
         ["under_direct"], "methods/iwasaki_sg/iwasaki_sg.glsl",
-        b"lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w", b"lobeVariance(lobe_cutoff.x)"),
+        b"vec3(layer[value & 3])", b"vec3(layer[0])"),
     "quick_atanasov2020": (
         ["closer_than_direct"], "methods/atanasov_bins/atanasov_bins.glsl",
-        b"return 2.0 * pi / (bins_across", b"return 4.0 * pi / (bins_across"),
+        b"return uint(cell.y) * uint(bins_across) + uint(cell.x);",
+        b"return uint(cell.x) * uint(bins_across) + uint(cell.y);"),
 }
 
 

@@ -248,8 +248,8 @@ Image render_from_files(const fs::path& folder, const Scene& scene, const glm::i
   }
   for (const auto& [name, value] : material["uniforms"].items()) set_uniform(program, name, value);
 
-  const std::string filter = manifest["footprint"];
-  set_uniform(program, "footprint_parts", std::stoi(filter.substr(filter.find(':') + 1)));
+  const std::string footprint = manifest["footprint"];
+  set_uniform(program, "footprint_parts", std::stoi(footprint.substr(footprint.find(':') + 1)));
 
   const Json& surface = material["surface"];
   const auto base = surface["base_color"].get<std::vector<float>>();

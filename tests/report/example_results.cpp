@@ -236,8 +236,8 @@ Results hostile_results() {
   equal.normalized_color = 0;
   equal.psnr = equal.relative_rmse = equal.relmse = equal.energy_bias = std::numeric_limits<double>::infinity();
   equal.noise_floor.reset();
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  results.records[3].ratio_to_direct = {unknown, unknown, unknown};
+  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+  results.records[3].ratio_to_direct = {no_number, no_number, no_number};
   results.reference.standard_errors[0].reset();
   results.reference.seed = std::numeric_limits<std::uint64_t>::max();
   results.supersampling[3].normalized_color.reset();

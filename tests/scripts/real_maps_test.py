@@ -150,6 +150,9 @@ class RealMaps(unittest.TestCase):
         self.assertEqual(len(model["methods"]), 48)
         own = model["calibration"][0]
         self.assertEqual((own["scenes"], own["predictions"]), (2, 2 * 48 * 4))
+        self.assertEqual([len(level) for level in model["domain"]], 4 * [5])
+        self.assertTrue(all(least <= most for level in model["domain"] for least, most in level))
+        self.assertEqual(model["surfaces"], [])
         # Nine weights describe the eight errors that they were fitted on.
         self.assertLess(own["median_factor"], 1.2)
         self.assertGreater(own["order_right"], 0.8)

@@ -59,7 +59,10 @@ OIIO::ImageSpec spec_with(int width, int height, const std::vector<std::string>&
   return spec;
 }
 
-// A Radiance HDR whose pixels are grey 1, 2, 4 ... in the order of the file.
+// A mantissa is the middle of what it stands for: 128 is (128 + 1/2) of 256.
+constexpr float grey_step = 1.0F + 1.0F / 256.0F;
+
+// A Radiance HDR whose pixels are grey 1, 2, 4 ... in the order of the file, times `grey_step`.
 std::vector<std::uint8_t> doubling_hdr(const std::string& lines, const std::string& size, int pixels) {
   std::string text = "#?RADIANCE\n" + lines + "\n" + size + "\n";
   for (int i = 0; i < pixels; ++i) text += "\x80\x80\x80"s + static_cast<char>(129 + i);
@@ -84,14 +87,23 @@ TEST(Declared, EveryOrderOfRadianceIsTurned) {
       const Image image = read_image(doubling_hdr(rgbe, size, 6), size, transfer);
       ASSERT_EQ(image.width, 2);
       ASSERT_EQ(image.height, 3);
-      for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(image.texels[3 * i], picture[i]) << i;
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(image.texels[3 * i], picture[i] * grey_step) << i;
     }
   }
 }
 
+TEST(Declared, MantissasOfRadianceAreTheMiddlesOfTheirSteps) {
+  const auto file = bytes_from("#?RADIANCE\n" + rgbe + "\n-Y 1 +X 3\n" + "\xff\x80\x01\x80" +
+                               std::string("\xc8\0\x0a\x89", 4) + std::string(4, '\0'));
+  const float step = 2.0F;  // of the second pixel
+  expect_texels(read_image(file, "steps", Transfer::declared),
+                {255.5F / 256, 128.5F / 256, 1.5F / 256, 200.5F * step, 0.5F * step, 10.5F * step, 0, 0, 0}, 0.0F);
+}
+
 TEST(Declared, ExposuresOfRadianceMultiply) {
   const auto file = doubling_hdr("EXPOSURE=4.0\n" + rgbe + "COLORCORR=1 2 4\nEXPOSURE= 0.5\n", "-Y 1 +X 1", 1);
-  expect_texels(read_image(file, "exposed", Transfer::declared), {1 / 2.0F, 1 / 4.0F, 1 / 8.0F});
+  expect_texels(read_image(file, "exposed", Transfer::declared),
+                {grey_step / 2.0F, grey_step / 4.0F, grey_step / 8.0F});
 }
 
 // CIE XYZ of Rec. 709's white, and of its red: x = 0.64, y = 0.33, luminance 0.2126.

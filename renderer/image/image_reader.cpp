@@ -49,6 +49,19 @@ void change_colors(Image& image, const Reading& reading, const Change& change) {
   }
 }
 
+// Takes each mantissa of a Radiance HDR as (m + 1/2) of 256, the middle of what is stored as m, as Radiance does.
+// OpenImageIO takes m, which is up to 0.4% too dark. The largest mantissa of a pixel is 128 or more.
+void centre_mantissas(Image& image) {
+  for (std::size_t i = 0; i < image.texel_count(); ++i) {
+    const std::span texel(&image.texels[i * static_cast<std::size_t>(image.channels)], 3);
+    const float largest = std::ranges::max(texel);
+    if (largest <= 0.0F) continue;
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    for (float& value : texel) value += std::ldexp(0.5F, exponent - 8);
+  }
+}
+
 void divide_by_factors(Image& image, const Reading& reading) {
   const glm::dvec3& factors = reading.declared.factors;
   if (factors == glm::dvec3(1.0)) return;
@@ -164,6 +177,7 @@ FileImage decode(IOProxy& source, const std::string& name, Transfer transfer, in
                         .declared = file.declared(),
                         .colors = out.image.channels - (coverage ? 1 : 0),
                         .coverage = coverage};
+  if (file.is_radiance_hdr()) centre_mantissas(out.image);
   divide_by_factors(out.image, reading);
   divide_by_alpha(out.image, reading, name);
   decode_curve(out.image, reading);

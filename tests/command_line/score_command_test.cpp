@@ -71,14 +71,14 @@ Case wrong(const std::string& name, std::vector<std::string> arguments, std::vec
   return made;
 }
 
-// The reference is 0.5 everywhere, the pictures 0.375 and 0.125: errors of 0.125 and 0.375 at exposure 1.
+// The reference is 0.5 everywhere, the pictures 0.375 and 0.126: errors of 0.126 and 0.375 at exposure 1.
 std::vector<Case> good_scores() {
   return {
       {.name = "HelpOfScore",
        .arguments = {"score", "--help"},
        .output_has = {"Examples:", "footprint score", "--reference", "--mask", "--standard-error", "HDR"}},
       good("ScoreOne", {"{}/darker.hdr", "--reference", "{}/reference.hdr", "--exposure", "1"},
-           {"4 pixels, exposure 1", "LDR-FLIP", "HDR-FLIP", "| 0.125 |", "-0.25"}),
+           {"4 pixels, exposure 1", "LDR-FLIP", "HDR-FLIP", "| 0.126 |", "-0.25"}),
       good("ScoreTheReferenceItself", {"{}/reference.hdr", "--reference", "{}/reference.hdr"}, {"|     0 |", "inf"}),
       good("ScoreTwo", {"{}/darkest.hdr", "{}/darker.hdr", "--reference", "{}/reference.hdr", "-o", "{}/score"},
            {"The first is closer to the reference in 0.0% of the pixels, the second in 100.0%", "noise unknown",
@@ -103,7 +103,7 @@ std::vector<Case> good_scores() {
   };
 }
 
-// Limits and the test per pixel. The error of darker.hdr is 0.125 everywhere.
+// Limits and the test per pixel. The error of darker.hdr is 0.126 everywhere.
 std::vector<Case> limited_scores() {
   const auto failed = [](const std::string& name, std::vector<std::string> arguments, std::vector<std::string> output) {
     Case made = good(name, std::move(arguments), std::move(output));
@@ -118,18 +118,18 @@ std::vector<Case> limited_scores() {
   };
   return {
       good("ScoreWithinLimits", with({"--max", "p99=0.13", "--max", "share_above:0.2=0", "--junit", "{}/out.xml"}),
-           {"| 0.125 |"}, {"out.xml"}),
+           {"| 0.126 |"}, {"out.xml"}),
       failed("ScoreAboveALimit", with({"--max", "p99=0.12", "--github"}),
-             {"failed: limit p99=0.12: it is 0.125", "::error file=", "darker.hdr%3A limit p99=0.12::it is 0.125"}),
+             {"failed: limit p99=0.12: it is 0.126", "::error file=", "darker.hdr%3A limit p99=0.12::it is 0.126"}),
       failed("ScoreBeyondNoiseOfAllPixels",
              with({"--standard-error", "{}/quiet.hdr", "--significance", "0.01", "--max", "rejected=3"}),
              {"failed: limit rejected=3: it is 4"}),
       good("ScoreWithinNoiseOfAllPixels",
            with({"--standard-error", "{}/darkest.hdr", "--significance", "0.01", "--max", "rejected=0"}),
-           {"| 0.125 |"}),
+           {"| 0.126 |"}),
       failed("ScoreOfFolders",
              {"{}/nightly", "--reference", "{}/golden", "--exposure", "1", "--max", "normalized_color=0.1"},
-             {"one.hdr", "two.hdr", "failed: limit normalized_color=0.1: it is 0.125"}),
+             {"one.hdr", "two.hdr", "failed: limit normalized_color=0.1: it is 0.126"}),
       good("ScoreOfFoldersIntoAFolder", {"{}/nightly", "--reference", "{}/golden", "--max", "p100=1", "-o", "{}/s"},
            {"score: "},
            {"s/near/one.hdr/index.html", "s/near/one.hdr/score.json", "s/near/one.hdr/ldr_flip_1.png",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <regex>
@@ -41,7 +42,19 @@ Results run_into(const Experiment& experiment, OutputFolder& folder, const Finis
   return results;
 }
 
+// Fills a folder by `write`, whose text it prints with the place of the page.
 // failed: set to the losses of the report, if it has none.
+void report_whole(const fs::path& output, std::optional<Error>& failed,
+                  const std::function<std::string(const RunFolder&)>& write) {
+  const auto [text, path, lost] = write_whole(output, [&](OutputFolder& folder) {
+    std::string made = write(folder.run());
+    keep(folder);
+    return made;
+  });
+  write_output(fmt::format("{}\npage: {}\n", text, (path / "index.html").string()));
+  if (!failed) failed = lost;
+}
+
 ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results> members, const fs::path& output,
                                std::optional<Error>& failed) {
   const Experiment& whole = group.judged();
@@ -49,27 +62,20 @@ ExperimentReport report_matrix(const ExperimentGroup& group, std::vector<Results
   results.report.quick = whole.quick;
   for (std::size_t i = 0; i < members.size(); ++i)
     results.members.push_back({.folder = group.experiments[i].name, .results = std::move(members[i])});
-  const auto [text, path, lost] = write_whole(output, [&](OutputFolder& folder) {
-    write_matrix_report(results, folder.run());
-    keep(folder);
+  report_whole(output, failed, [&](const RunFolder& folder) {
+    write_matrix_report(results, folder);
     return matrix_table(results);
   });
-  write_output(fmt::format("{}\npage: {}\n", text, (path / "index.html").string()));
-  if (!failed) failed = lost;
   return std::move(results.report);
 }
 
-// failed: set to the losses of the report, if it has none.
 void report_region(const Experiment& stated, const std::vector<Results>& settings, const fs::path& output,
                    std::optional<Error>& failed) {
   const RegionReport report = region_report(stated, settings);
-  const auto [text, path, lost] = write_whole(output, [&](OutputFolder& folder) {
-    write_region(report, folder.run());
-    keep(folder);
+  report_whole(output, failed, [&](const RunFolder& folder) {
+    write_region(report, folder);
     return region_table(report);
   });
-  write_output(fmt::format("{}\npage: {}\n", text, (path / "index.html").string()));
-  if (!failed) failed = lost;
 }
 
 // Runs a group into its folders below `output`, prints its results and passes them to the listener.

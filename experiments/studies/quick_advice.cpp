@@ -111,7 +111,8 @@ std::vector<std::string> beyond_domain(const std::vector<std::vector<double>>& i
   return found;
 }
 
-// Two predictions closer than this factor are in the wrong order for about one pair in twenty.
+// Predictions that differ by more than this are in an order to trust: two thirds of the predicted ratios are right to
+// within `order_factor`, which is one standard deviation of their logarithms if these are normal, and this is two.
 double sure_factor(const QuickCalibration& own) { return own.order_factor * own.order_factor; }
 
 // Whether `direct` under the filter of the choice may be as accurate.

@@ -28,6 +28,7 @@ const CLI::Option* add_option(CLI::App& command, const Setting& setting) {
   const std::string group(setting.group);
   if (setting.type.word.empty()) return command.add_flag(names, help)->group(group);
   CLI::Option* option = command.add_option(names, help)->type_name(setting.type.word)->required(setting.required);
+  if (setting.type.repeats) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   if (names.starts_with('-')) option->group(group);
   return option->default_str(default_text(setting));
 }
@@ -45,8 +46,9 @@ void RunArguments::apply(RunSettings& run) const {
   run.scene_library = scene_library();
   run.cache = default_cache_folder();
   for (const auto& [setting, option] : added_) {
-    const std::string text = option->count() > 0 ? option->results().front() : std::string(setting->start);
-    if (option->count() > 0 || !text.empty()) setting->type.read_text(run, option_name(*setting), text);
+    std::vector<std::string> texts = option->results();
+    if (texts.empty() && !setting->start.empty()) texts.emplace_back(setting->start);
+    for (const std::string& text : texts) setting->type.read_text(run, option_name(*setting), text);
   }
 }
 

@@ -136,9 +136,10 @@ struct RunSettings {
   SceneOverrides overrides;    ///< of the scene's own settings
   std::vector<MethodSpec> methods;
   std::filesystem::path
-      method_folder{};       ///< where relative paths of methods' files start; empty: the working directory
-  bool by_material = false;  ///< also measure errors by material
-  EffectSet without;         ///< effects that every method and the reference leave out
+      method_folder{};  ///< where relative paths of methods' files start; empty: the working directory
+  std::vector<std::filesystem::path> bakes{};  ///< folders of `footprint bake` whose maps methods take
+  bool by_material = false;                    ///< also measure errors by material
+  EffectSet without;                           ///< effects that every method and the reference leave out
   ViewSettings view;
   PathSettings path;
   std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter

@@ -27,6 +27,7 @@ struct SettingType {
   std::function<std::string(RunSettings run)> text;
   /// The separator in the text of a list, which is an array in a file; 0: the value is not a list.
   char separator = 0;
+  bool repeats = false;  ///< the option may be given several times, each with a value to add
 };
 
 /// A key of an experiment's file.

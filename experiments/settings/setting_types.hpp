@@ -182,6 +182,16 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
   return typed(field, "FILE", "", std::bind_front(parse_name, "name a file"));
 }
 
+/// Folders, one for each time that the option is given.
+[[nodiscard]] SettingType folders(auto field) {
+  const auto parse = std::bind_front(parse_name, "name a folder");
+  return {.word = "DIR",
+          .read_text = [=](RunSettings& run, std::string_view option,
+                           const std::string& text) { field(run).emplace_back(parse(option, text)); },
+          .text = [](const RunSettings&) { return std::string(); },
+          .repeats = true};
+}
+
 /// A whole number, both ends inclusive; the type's largest value as `high` means no limit.
 template <class Field>
 [[nodiscard]] SettingType whole_number(Field field, ValueOf<Field> low, ValueOf<Field> high) {

@@ -19,6 +19,7 @@ const Commands with_a_footprint{"compare", "render", "animate", "edit", "bake", 
 const Commands with_a_history{"compare", "render", "animate"};
 const Commands that_draw{"compare", "recommend", "render", "animate", "edit", "explain",
                          "ndf",     "run",       "check",  "score",   "cost"};
+const Commands that_take_bakes{"compare", "recommend", "render", "animate"};
 const Commands that_may_cache{"compare", "recommend", "render", "animate", "bake",  "explain",
                               "ndf",     "run",       "check",  "cost",    "shader"};
 
@@ -148,6 +149,11 @@ std::vector<Setting> scene_settings() {
        .type = methods(all_of, parse_methods_with_histories),
        .help = "methods to compare",
        .required = true},
+      {.option = "--bakes",
+       .commands = that_take_bakes,
+       .type = folders([](Run& run) -> std::vector<std::filesystem::path>& { return run.bakes; }),
+       .help = "folder of `footprint bake` with the maps of a method, which is then not baked; give one per method",
+       .otherwise = "the methods are baked"},
       {.option = "--without",
        .commands = {"compare"},
        .key = {"experiment", "without"},

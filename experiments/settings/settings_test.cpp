@@ -46,6 +46,16 @@ std::string refusal(std::string_view command, std::string_view option, const std
 
 std::string refused_size(const std::string& text) { return refusal("compare", "--size", text); }
 
+// An option that may be given several times adds to the values before.
+TEST(BakesSetting, TakesAFolderEachTime) {
+  const SettingType& type = row_of("compare", "--bakes").type;
+  EXPECT_TRUE(type.repeats);
+  RunSettings run;
+  for (const char* folder : {"maps,1", "more"}) type.read_text(run, "--bakes", folder);
+  EXPECT_EQ(run.bakes, (std::vector<std::filesystem::path>{"maps,1", "more"}));
+  EXPECT_TRUE(says(refusal("render", "--bakes", ""), "--bakes: `` is empty"));
+}
+
 TEST(SizeSetting, TakesWidthThenHeight) {
   EXPECT_EQ(read("compare", "--size", "640x480").view.size, glm::ivec2(640, 480));
   EXPECT_EQ(read("render", "--size", "1x1").view.size, glm::ivec2(1, 1));

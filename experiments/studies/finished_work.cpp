@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/studies/given_bakes.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/bytes.hpp"
@@ -207,6 +208,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
     hash.add(method.text);
     if (method.file) hash.add(method.file->file_content);
   }
+  if (!settings.bakes.empty()) hash.add(content_of_given_bakes(settings));
   add(hash, settings.gpus);
   add_view(hash, settings, scene);
   add(hash, settings.reference);

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "experiments/settings/setting.hpp"
+#include "experiments/studies/given_bakes.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/memory.hpp"
@@ -38,11 +39,10 @@ void require_upload(const Prefiltered& prefiltered) {
 // A method on the GPU, baked and uploaded one material after the other, so that at most one texture is in memory
 // twice. A frame build may read what was baked; of every other method the GPU has all that a frame needs.
 PreparedMethod bake_and_upload(const GpuScene& gpu_scene, const Scene& scene, const EffectSet& effects,
-                               const Method& method, const MethodSpec& spec, const std::optional<DiskCache>& files,
-                               const Progress& progress) {
-  auto baked = std::make_unique<BakedMethod>(make_bake(method, spec));
+                               BakedMethod made, const BakeSource& source, const Progress& progress) {
+  auto baked = std::make_unique<BakedMethod>(std::move(made));
   auto gpu = std::make_unique<GpuMethod>(gpu_scene, *baked);
-  bake_materials(*baked, scene, effects, progress, files ? &*files : nullptr, [&](std::size_t material) {
+  bake_materials(*baked, scene, effects, progress, source, [&](std::size_t material) {
     require_upload(baked->materials[material]);
     gpu->upload_material(material, [&](std::size_t texture) {
       if (!gpu->has_frame_build()) free_texels(baked->materials[material].textures[texture]);
@@ -237,7 +237,9 @@ PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
       scene(std::move(loaded)),
       triangles(scene_info(scene, {}).triangles),
       decisions(derive_effects(scene)),
-      effects(effects_on(decisions) & ~settings.without) {}
+      effects(effects_on(decisions) & ~settings.without) {
+  require_given_bakes(settings, scene, effects);
+}
 
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
     : prepared_(std::make_shared<const PreparedMethod>(
@@ -248,8 +250,16 @@ StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
 std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
                                                       const EffectSet& effects, const MethodSpec& spec,
                                                       const RunSettings& settings, const Progress& progress) {
+  BakedMethod made = make_bake(find_method(spec), spec);
+  const std::optional<DiskCache> files = cache_of(settings);
+  const std::optional<BakeFolder> given = given_bake(settings, spec);
+  BakeSource source{.cache = files ? &*files : nullptr};
+  if (given) {
+    made.given_by = given->folder().string();
+    source.given = [&, wanted = made](std::size_t material) { return given->read(wanted, scene, material, effects); };
+  }
   return std::make_shared<const PreparedMethod>(
-      bake_and_upload(gpu_scene, scene, effects, find_method(spec), spec, cache_of(settings), progress));
+      bake_and_upload(gpu_scene, scene, effects, std::move(made), source, progress));
 }
 
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& gpu_scene, const Scene& scene,
@@ -296,9 +306,9 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
     methods_.emplace_back(method.spec, *failure);
   }
   if (is_first)
-    shared.base =
-        bake_and_upload(*shared.gpu, shared.scene, shared.effects, base_surface(),
-                        {.text = "reference", .name = "reference", .options = {}}, {}, parts.next(1, "bake "));
+    shared.base = bake_and_upload(*shared.gpu, shared.scene, shared.effects,
+                                  make_bake(base_surface(), {.text = "reference", .name = "reference", .options = {}}),
+                                  {}, parts.next(1, "bake "));
   reference_ = std::make_unique<Supersampler>(shared.context.info(), *shared.gpu, *shared.base.gpu,
                                               settings.reference.filter, shared.scene.camera.orthographic,
                                               settings.backend.tile, settings.reference.environment);

@@ -148,7 +148,7 @@ struct PreparedMethod {
   std::unique_ptr<GpuMethod> gpu;
 };
 
-/// Bakes a method, unless the cache of the settings has it, and uploads it.
+/// Bakes a method, unless a folder or the cache of the settings has its maps, and uploads it.
 [[nodiscard]] std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
                                                                     const EffectSet& effects, const MethodSpec& spec,
                                                                     const RunSettings& settings,
@@ -157,6 +157,7 @@ struct PreparedMethod {
 /// Shared by stages over one scene: its context, its maps and meshes on the GPU, and the methods that were prepared
 /// for them. The first stage fills it.
 struct PreparedScene {
+  /// Errors (usage): as require_given_bakes.
   PreparedScene(Scene loaded, const RunSettings& settings);
 
   gl::Context context;

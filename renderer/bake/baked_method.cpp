@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <set>
 #include <span>
 #include <string>
@@ -43,14 +44,14 @@ Prefiltered precomputed(const Method& method, const Scene& scene, std::size_t in
                               : method.precompute(scene.materials.at(index), options, effects, progress);
 }
 
-// Bakes one material: after its base BRDF changed (`before`), or by reading the cache, which gets a slow bake that it
-// lacks.
+// Bakes one material, or takes it from `source`.
 Outcome prefilter(const Method& method, const Scene& scene, std::size_t index, const Options& options,
-                  const EffectSet& effects, const Progress& progress, const DiskCache* cache,
-                  const BakedMethod* before) {
+                  const EffectSet& effects, const Progress& progress, const BakeSource& source) {
   const Material& material = scene.materials.at(index);
-  if (before != nullptr && method.precompute_brdf)
-    return {method.precompute_brdf(before->materials.at(index), material, options, effects), false};
+  if (source.given) return {source.given(index), true};
+  if (source.before != nullptr && method.precompute_brdf)
+    return {method.precompute_brdf(source.before->materials.at(index), material, options, effects), false};
+  const DiskCache* const cache = source.cache;
   if (cache == nullptr || !method.info.slow_precompute)
     return {precomputed(method, scene, index, options, effects, progress), false};
   const std::string key = bake_key(method.info.name + method.file_content, material, options, effects);
@@ -117,6 +118,16 @@ std::optional<std::string> storage_range_note(const Material& material, const Me
       storage, least, narrowest);
 }
 
+std::vector<std::string> common_notes(const Method& method, const Material& material, const Options& options,
+                                      const EffectSet& effects) {
+  std::vector<std::string> notes;
+  if (auto note = storage_range_note(material, method.info, options, effects & method.info.honours))
+    notes.push_back(*std::move(note));
+  if (material.anisotropy && has(effects & ~method.info.honours, Effect::anisotropic_lobe))
+    notes.emplace_back("uses the round mean of the anisotropic base BRDF (docs/explanation/base-brdf.md)");
+  return notes;
+}
+
 Options options_of(const Method& method, const MethodSpec& spec) {
   return {method.info.options, spec.options, "method " + spec.name};
 }
@@ -126,9 +137,9 @@ BakedMethod make_bake(const Method& method, const MethodSpec& spec) {
 }
 
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
-                    const DiskCache* cache, const MaterialBaked& when_baked, const BakedMethod* before) {
+                    const BakeSource& source, const MaterialBaked& when_baked) {
   const Method& method = *baked.method;
-  baked.cached = cache != nullptr && method.info.slow_precompute;
+  baked.cached = source.given || (source.cache != nullptr && method.info.slow_precompute);
   const auto count = static_cast<double>(scene.materials.size());
   std::set<std::uint64_t> known;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -139,12 +150,9 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
     part(fmt::format("{}: {}", baked.spec.text, material.name), 0.0);
     try {
       const EffectSet honoured = effects & method.info.honours;
-      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, cache, before);
-      if (auto note = storage_range_note(material, method.info, baked.options, honoured))
-        prefiltered.notes.push_back(*std::move(note));
-      if (material.anisotropy && has(effects & ~method.info.honours, Effect::anisotropic_lobe))
-        prefiltered.notes.emplace_back(
-            "uses the round mean of the anisotropic base BRDF (docs/explanation/base-brdf.md)");
+      auto [prefiltered, from_disk] = prefilter(method, scene, i, baked.options, honoured, part, source);
+      std::ranges::move(common_notes(method, material, baked.options, effects), std::back_inserter(prefiltered.notes));
+      if (!baked.given_by.empty()) prefiltered.notes.push_back("maps from " + baked.given_by);
       baked.materials.push_back(std::move(prefiltered));
       baked.cached = baked.cached && from_disk;
     } catch (const Error& error) {
@@ -161,15 +169,14 @@ void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& eff
 BakedMethod bake(const Method& method, const MethodSpec& spec, const Scene& scene, const EffectSet& effects,
                  const Progress& progress, const DiskCache* cache) {
   BakedMethod baked = make_bake(method, spec);
-  bake_materials(baked, scene, effects, progress, cache, [](std::size_t) {});
+  bake_materials(baked, scene, effects, progress, {.cache = cache}, [](std::size_t) {});
   return baked;
 }
 
 BakedMethod bake_after_brdf(const BakedMethod& before, const Scene& scene, const EffectSet& effects,
                             const Progress& progress) {
   BakedMethod baked = make_bake(*before.method, before.spec);
-  bake_materials(
-      baked, scene, effects, progress, nullptr, [](std::size_t) {}, &before);
+  bake_materials(baked, scene, effects, progress, {.before = &before}, [](std::size_t) {});
   return baked;
 }
 

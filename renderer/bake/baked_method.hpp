@@ -1,4 +1,5 @@
-// A method's precompute over a whole scene, from the disk cache if possible, and the entries of that cache.
+// A method's precompute over a whole scene, from the disk cache or given maps if possible, and the entries of that
+// cache.
 #pragma once
 
 #include <functional>
@@ -34,6 +35,11 @@ void write_bytes(const Prefiltered& prefiltered, const ByteSink& sink);
 [[nodiscard]] std::optional<std::string> storage_range_note(const Material& material, const MethodInfo& info,
                                                             const Options& options, const EffectSet& effects);
 
+/// The notes that every bake of a material gets, besides those of the method itself: on storage and on lobes.
+/// effects: the scene's.
+[[nodiscard]] std::vector<std::string> common_notes(const Method& method, const Material& material,
+                                                    const Options& options, const EffectSet& effects);
+
 /// A method's precompute for every material of a scene, with its cost.
 struct BakedMethod {
   const Method* method = nullptr;
@@ -45,7 +51,8 @@ struct BakedMethod {
   double seconds = 0;
   std::size_t bytes = 0;   ///< on the GPU; texels that several materials share count once
   std::size_t texels = 0;  ///< of the finest levels, over all materials (`finest_texels`)
-  bool cached = false;     ///< every material came from the cache; `seconds` is then the time of reading
+  bool cached = false;     ///< every material was read from disk; `seconds` is then the time of reading
+  std::string given_by{};  ///< the folder whose maps replace the precompute and the frame build; empty: none
 };
 
 /// Called with a material's number when it is baked; may free the texels.
@@ -58,10 +65,19 @@ using MaterialBaked = std::function<void(std::size_t)>;
 /// A method with its options, without any baked material. Throws Error (usage): those of options_of.
 [[nodiscard]] BakedMethod make_bake(const Method& method, const MethodSpec& spec);
 
+/// The given maps of a material, by its number.
+using GivenMaps = std::function<Prefiltered(std::size_t material)>;
+
+/// What replaces a precompute: at most one of these.
+struct BakeSource {
+  const DiskCache* cache = nullptr;     ///< has slow bakes, and gets those that it lacks
+  const BakedMethod* before = nullptr;  ///< the bake of a scene that differs in the base BRDF alone
+  GivenMaps given = nullptr;            ///< the maps of BakedMethod::given_by
+};
+
 /// Runs the precompute of `baked` for one material after the other, as `bake` does. `seconds` excludes `when_baked`.
-/// before: the bake of a scene that differs in the base BRDF alone, instead of `cache`; null: none.
 void bake_materials(BakedMethod& baked, const Scene& scene, const EffectSet& effects, const Progress& progress,
-                    const DiskCache* cache, const MaterialBaked& when_baked, const BakedMethod* before = nullptr);
+                    const BakeSource& source, const MaterialBaked& when_baked);
 
 /// Runs the precompute of `spec` for every material, or reads it from the cache.
 /// effects: the scene's; the method gets those that it honours.

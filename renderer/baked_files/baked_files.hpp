@@ -10,6 +10,7 @@
 
 #include "renderer/bake/baked_method.hpp"
 #include "renderer/bake/prefiltered.hpp"
+#include "renderer/core/bytes.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/languages/translation.hpp"
@@ -115,6 +116,17 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder);
 /// 0) and KTXwriter, and the levels, coarsest first. Equal textures give equal bytes. Throws std::logic_error: a
 /// texture of a frame build.
 [[nodiscard]] std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture);
+
+/// Where the levels of a KTX2 file begin, finest first. Checks the file against a texture and against its own length,
+/// before anything of its size is allocated.
+/// form: storage, channels, layers and sizes of levels that the file must have; its texels are not used.
+/// Throws Error (usage), without a place: not a KTX2 file, another format or size, supercompression, a level beyond its
+/// end; (machine): it cannot be read.
+[[nodiscard]] std::vector<std::uint64_t> ktx2_offsets(const ByteSource& file, const PrefilteredTexture& form);
+
+/// Reads the texels of a texture, which has everything else.
+/// Throws as ktx2_offsets; Error (machine): the texels do not fit in memory.
+void read_ktx2(const ByteSource& file, PrefilteredTexture& texture);
 
 /// A plain texture of `unorm8` with 4 channels as a DirectDraw surface with all its levels: the header of 2001, which
 /// every reader knows.

@@ -1,12 +1,20 @@
-// The parts of the file in their order; sections and tables are those of the KTX 2.0 specification and, for the data
-// format descriptor, of the Khronos Data Format Specification 1.3.
+// The parts of the file in their order, written and read; sections and tables are those of the KTX 2.0 specification
+// and, for the data format descriptor, of the Khronos Data Format Specification 1.3. Debian 12 has no library for KTX.
 #include "renderer/baked_files/baked_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string_view>
+
+#include "renderer/core/bytes.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/core/memory.hpp"
 
 namespace footprint {
 namespace {
@@ -103,6 +111,83 @@ std::vector<std::size_t> level_offsets(const PrefilteredTexture& texture, std::s
   return offsets;
 }
 
+// The unit of byte order.
+std::size_t type_size(Storage storage) { return is_block(storage) ? 1 : channel_bytes(storage); }
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorKind::usage, {}, message,
+              "write 2D textures as `footprint bake` does, without supercompression, or bake the map again");
+}
+
+// A part of a file that was checked to be within it.
+Bytes part_of(const ByteSource& file, std::uint64_t from, std::uint64_t length, std::string_view what) {
+  if (from > file.size() || length > file.size() - from)
+    refuse(fmt::format("{} is beyond the end of the file ({} bytes)", what, file.size()));
+  Bytes bytes(static_cast<std::size_t>(length));
+  if (!file.read(from, bytes)) throw Error(ErrorKind::machine, {}, "cannot be read", "check the disk");
+  return bytes;
+}
+
+std::uint32_t word_at(const Bytes& bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;) word = word << 8U | bytes.at(at + i);
+  return word;
+}
+
+std::uint64_t long_at(const Bytes& bytes, std::size_t at) {
+  return word_at(bytes, at) | std::uint64_t{word_at(bytes, at + 4)} << 32U;
+}
+
+void require_equal(std::string_view what, std::uint64_t found, std::uint64_t expected) {
+  if (found != expected) refuse(fmt::format("its {} is {}, and {} was expected", what, found, expected));
+}
+
+void require_header(const Bytes& head, const PrefilteredTexture& form) {
+  if (!std::ranges::equal(std::span(head).first(identifier.size()), identifier)) refuse("is not a KTX2 file");
+  const TextureLevel& finest = form.levels.front();
+  require_equal("vkFormat", word_at(head, 12), vk_format(form.storage, form.channels));
+  require_equal("typeSize", word_at(head, 16), type_size(form.storage));
+  require_equal("pixelWidth", word_at(head, 20), static_cast<std::uint64_t>(finest.width));
+  require_equal("pixelHeight", word_at(head, 24), static_cast<std::uint64_t>(finest.height));
+  require_equal("pixelDepth", word_at(head, 28), 0);
+  require_equal("layerCount", word_at(head, 32), static_cast<std::uint64_t>(form.layers));
+  require_equal("faceCount", word_at(head, 36), 1);
+  require_equal("levelCount", word_at(head, 40), form.levels.size());
+  require_equal("supercompressionScheme", word_at(head, 44), 0);
+}
+
+// Compares what decides how texels are read. Primaries, qualifiers and ranges of channels describe colours alone.
+void require_descriptor(const ByteSource& file, const Bytes& head, const PrefilteredTexture& form) {
+  constexpr std::uint32_t but_primaries = 0x00FF00FF, dimensions = 0xFFFFFFFF, first_plane = 0x000000FF;
+  constexpr std::size_t basic_bytes = 28, model_at = 12, block_at = 16, plane_at = 20;
+  const std::uint32_t length = word_at(head, 52);
+  if (length < basic_bytes) refuse("its data format descriptor is cut off");
+  const Bytes found = part_of(file, word_at(head, 48), basic_bytes, "its data format descriptor");
+  const Bytes own = format_descriptor(form);
+  require_equal("dfdTotalSize", word_at(found, 0), length);
+  const auto require_word = [&](std::string_view what, std::size_t at, std::uint32_t mask) {
+    require_equal(what, word_at(found, at) & mask, word_at(own, at) & mask);
+  };
+  require_word("colour model or transfer function", model_at, but_primaries);
+  require_word("texel block", block_at, dimensions);
+  require_word("bytesPlane0", plane_at, first_plane);
+}
+
+// The first byte of a level, all of whose bytes are in the file.
+std::uint64_t level_offset(const ByteSource& file, const Bytes& head, const PrefilteredTexture& form,
+                           std::size_t level) {
+  const std::size_t entry = header_bytes + level_entry_bytes * level;
+  const TextureLevel& size = form.levels[level];
+  const std::uint64_t offset = long_at(head, entry), length = long_at(head, entry + 8),
+                      expected = level_bytes(form.storage, form.channels, size.width, size.height) *
+                                 static_cast<std::uint64_t>(std::max(form.layers, 1));
+  require_equal(fmt::format("byteLength of level {}", level), length, expected);
+  require_equal(fmt::format("uncompressedByteLength of level {}", level), long_at(head, entry + 16), expected);
+  if (offset > file.size() || length > file.size() - offset)
+    refuse(fmt::format("level {} is beyond the end of the file ({} bytes)", level, file.size()));
+  return offset;
+}
+
 }  // namespace
 
 std::uint32_t vk_format(Storage storage, int channels) {
@@ -126,11 +211,10 @@ std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
   const auto width = static_cast<std::size_t>(texture.levels.front().width),
              height = static_cast<std::size_t>(texture.levels.front().height),
              layers = static_cast<std::size_t>(texture.layers);
-  const std::size_t type_size = is_block(texture.storage) ? 1 : channel_bytes(texture.storage);  // unit of byte order
   Bytes out(identifier.begin(), identifier.end());
   // After the size no depth; after the layers one face; after the levels no supercompression, and so no global data.
-  append(out,
-         {vk_format(texture.storage, texture.channels), type_size, width, height, 0, layers, 1, offsets.size(), 0});
+  append(out, {vk_format(texture.storage, texture.channels), type_size(texture.storage), width, height, 0, layers, 1,
+               offsets.size(), 0});
   append(out, {descriptor_at, descriptor.size(), keys_at, keys.size(), 0, 0, 0, 0});
   for (std::size_t level = 0; level < offsets.size(); ++level) {
     for (const std::uint64_t value :
@@ -144,6 +228,28 @@ std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture) {
     append(out, texture.levels[level].bytes);
   }
   return out;
+}
+
+std::vector<std::uint64_t> ktx2_offsets(const ByteSource& file, const PrefilteredTexture& form) {
+  const Bytes head = part_of(file, 0, header_bytes + level_entry_bytes * form.levels.size(), "its header");
+  require_header(head, form);
+  require_descriptor(file, head, form);
+  std::vector<std::uint64_t> offsets;
+  for (std::size_t level = 0; level < form.levels.size(); ++level)
+    offsets.push_back(level_offset(file, head, form, level));
+  return offsets;
+}
+
+void read_ktx2(const ByteSource& file, PrefilteredTexture& texture) {
+  const std::vector<std::uint64_t> offsets = ktx2_offsets(file, texture);
+  const TextureLevel& finest = texture.levels.front();
+  require_texels(finest.width, finest.height, byte_count(texture), "texture " + texture.name);
+  for (std::size_t level = 0; level < offsets.size(); ++level) {
+    TextureLevel& into = texture.levels[level];
+    const std::uint64_t layer = level_bytes(texture.storage, texture.channels, into.width, into.height);
+    into.bytes = part_of(file, offsets[level], layer * static_cast<std::uint64_t>(std::max(texture.layers, 1)),
+                         fmt::format("level {}", level));
+  }
 }
 
 // Microsoft, "Programming guide for DDS": DDS_HEADER with DDS_PIXELFORMAT.

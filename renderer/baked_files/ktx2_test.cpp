@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <stdexcept>
+#include <utility>
 
+#include "renderer/core/error.hpp"
 #include "renderer/image/mipmap.hpp"
 #include "tests/support/ktx2_reader.hpp"
+#include "tests/support/says.hpp"
 
 namespace footprint {
 namespace {
@@ -122,6 +127,101 @@ TEST(Ktx2, SaysWhichRowComesFirst) {
 TEST(Ktx2, TakesTheFinestLevelAlone) {
   const PrefilteredTexture texture = make_texture("map", {counted_chain(5, 7, 2).front()}, Storage::fp32, {});
   EXPECT_EQ(read_ktx2(ktx2_bytes(texture)).levels.size(), 1U);
+}
+
+// The texture without its texels, as a manifest describes it.
+PrefilteredTexture form_of(PrefilteredTexture texture) {
+  free_texels(texture);
+  return texture;
+}
+
+std::vector<PrefilteredTexture> textures_of_every_kind() {
+  std::vector<PrefilteredTexture> textures;
+  for (const Storage storage : {Storage::fp32, Storage::fp16, Storage::unorm8}) {
+    for (int channels = 1; channels <= 4; ++channels)
+      textures.push_back(make_texture("map", counted_chain(13, 6, channels), storage, {}));
+    textures.push_back(make_array_texture("lobes", {counted_chain(8, 4, 3), counted_chain(8, 4, 3)}, storage, {}));
+  }
+  for (const auto& [storage, channels] : {std::pair{Storage::bc1, 3}, {Storage::bc4, 1}, {Storage::bc5, 2}})
+    textures.push_back(make_texture("map", counted_chain(13, 6, channels), storage, {}));
+  textures.push_back(make_texture("map", {counted_chain(5, 7, 2).front()}, Storage::fp32, {}));
+  return textures;
+}
+
+TEST(Ktx2Reading, GivesBackEveryTexture) {
+  for (const PrefilteredTexture& texture : textures_of_every_kind()) {
+    PrefilteredTexture again = form_of(texture);
+    read_ktx2(ktx2_bytes(texture), again);
+    EXPECT_EQ(again, texture);
+  }
+}
+
+std::string refusal_of_file(const std::vector<std::uint8_t>& bytes, PrefilteredTexture form) {
+  try {
+    read_ktx2(bytes, form);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
+    EXPECT_FALSE(error.hint().empty()) << error.what();
+    return error.what();
+  }
+  return "no error";
+}
+
+// A file is of one form alone: no other texture takes its texels.
+TEST(Ktx2Reading, RefusesAnotherForm) {
+  const std::vector<PrefilteredTexture> textures = textures_of_every_kind();
+  for (const PrefilteredTexture& of_file : textures) {
+    for (const PrefilteredTexture& form : textures) {
+      const bool is_same = &form == &of_file;
+      EXPECT_EQ(refusal_of_file(ktx2_bytes(of_file), form_of(form)) == "no error", is_same);
+    }
+  }
+}
+
+TEST(Ktx2Reading, RefusesEveryTruncation) {
+  const PrefilteredTexture texture = make_texture("map", counted_chain(5, 3, 3), Storage::unorm8, {});
+  const std::vector<std::uint8_t> whole = ktx2_bytes(texture);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_NE(refusal_of_file({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}, form_of(texture)),
+              "no error")
+        << size;
+}
+
+// Offsets and lengths near the largest number, where sums wrap around.
+TEST(Ktx2Reading, RefusesWhatIsHostile) {
+  const PrefilteredTexture texture = make_texture("map", counted_chain(4, 4, 4), Storage::fp32, {});
+  const std::vector<std::uint8_t> whole = ktx2_bytes(texture);
+  const auto with = [&](std::size_t at, std::size_t count, std::uint8_t value) {
+    std::vector<std::uint8_t> bytes = whole;
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), count, value);
+    return refusal_of_file(bytes, form_of(texture));
+  };
+  EXPECT_TRUE(test::says(with(0, 1, 0), "is not a KTX2 file"));
+  EXPECT_TRUE(test::says(with(20, 4, 0xFF), "pixelWidth is 4294967295, and 4 was expected"));
+  EXPECT_TRUE(test::says(with(40, 4, 0xFF), "levelCount"));
+  EXPECT_TRUE(test::says(with(44, 1, 2), "supercompressionScheme is 2"));
+  EXPECT_TRUE(test::says(with(48, 4, 0xFF), "descriptor is beyond the end"));
+  EXPECT_TRUE(test::says(with(52, 4, 0), "descriptor is cut off"));
+  EXPECT_TRUE(test::says(with(80, 8, 0xFF), "level 0 is beyond the end"));
+  EXPECT_TRUE(test::says(with(88, 8, 0xFF), "byteLength of level 0"));
+  const std::size_t descriptor = 80 + 24 * texture.levels.size();
+  EXPECT_TRUE(test::says(with(descriptor + 14, 1, 2), "transfer function"));  // sRGB
+  EXPECT_TRUE(test::says(with(descriptor + 20, 1, 4), "bytesPlane0"));
+}
+
+// The order and place of levels are the file's own: another program writes the finest first, behind keys of its own.
+TEST(Ktx2Reading, TakesLevelsInAnyOrder) {
+  const PrefilteredTexture texture = make_texture("map", counted_chain(4, 4, 1), Storage::fp32, {});
+  std::vector<std::uint8_t> bytes = ktx2_bytes(texture);
+  for (std::size_t level = 0; level < texture.levels.size(); ++level) {
+    for (std::size_t i = 0; i < 8; ++i)
+      bytes[80 + 24 * level + i] = static_cast<std::uint8_t>(std::uint64_t{bytes.size()} >> (8 * i));
+    const auto& own = texture.levels[level].bytes;
+    bytes.insert(bytes.end(), own.begin(), own.end());
+  }
+  PrefilteredTexture again = form_of(texture);
+  read_ktx2(bytes, again);
+  EXPECT_EQ(again, texture);
 }
 
 // The reader rejects wrong files, so that the tests above can fail.

@@ -1,22 +1,24 @@
 // One JSON object per material and texture, and the uniforms that a module reads.
-#include "renderer/baked_files/baked_files.hpp"
+#include "renderer/baked_files/manifest.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
 #include "renderer/bake/facets.hpp"
 #include "renderer/bake/material_maps.hpp"
+#include "renderer/baked_files/baked_files.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/scene/gltf/document.hpp"
 
 namespace footprint {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto wraps = own_words<Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge>;
 constexpr std::array<Word<TextureFilter>, 4> filters{{{TextureFilter::trilinear, "trilinear"},
                                                       {TextureFilter::nearest, "nearest"},
                                                       {TextureFilter::linear, "linear"},
@@ -42,8 +44,9 @@ Json coordinates_json(const TextureCoordinates& coordinates) {
   Json transform = Json::array();
   for (int column = 0; column < 3; ++column) transform.push_back(numbers(coordinates.transform[column]));
   return {{"set", coordinates.texcoord.value_or(coordinates.set)},
+          {"vertex_set", coordinates.set},
           {"transform", std::move(transform)},
-          {"wrap", {word_for(wraps, coordinates.wrap[0]), word_for(wraps, coordinates.wrap[1])}}};
+          {"wrap", {word_for(manifest_wraps, coordinates.wrap[0]), word_for(manifest_wraps, coordinates.wrap[1])}}};
 }
 
 Json texture_json(const PrefilteredTexture& texture, const TextureFiles& files) {
@@ -55,6 +58,7 @@ Json texture_json(const PrefilteredTexture& texture, const TextureFiles& files) 
           {"channels", texture.channels},
           {"layers", texture.layers},
           {"filter", word_for(filters, texture.filter)},
+          {"lookup", word_for(manifest_lookups, texture.filter)},
           {"coordinates", coordinates_json(texture.coordinates)},
           {"levels", std::move(levels)},
           {"bytes", byte_count(texture)},
@@ -69,16 +73,12 @@ Json textures_json(const std::vector<PrefilteredTexture>& textures, const std::v
   return list;
 }
 
-// The uniforms of a material: scalars, vectors, its lobe and, if there are several per facet, those.
-Json uniforms_json(const Material& material, const Prefiltered& prefiltered, const EffectSet& effects) {
+// The uniforms of the material itself: its lobe and, if there are several per facet, those.
+Json material_uniforms(const Material& material, const EffectSet& effects) {
   Json uniforms = Json::object();
   uniforms["lobe_cutoff"] = {lobe_of(material).parameter, material.alpha_cutoff.value_or(-1.0F), 0.0,
                              squared_strength(material)};
   if (has(effects, Effect::anisotropic_lobe)) uniforms["lobe_anisotropy"] = numbers(anisotropy_of(material));
-  for (const auto& [name, value] : prefiltered.scalars) uniforms[name] = value;
-  for (const auto& [name, values] : prefiltered.vectors) {
-    for (std::size_t i = 0; i < values.size(); ++i) uniforms[fmt::format("{}[{}]", name, i)] = numbers(values[i]);
-  }
   if (!has(effects, Effect::multi_lobe)) return uniforms;
   uniforms["facet_lobe_count"] = material.lobes.size();
   for (std::size_t k = 0; k < material.lobes.size(); ++k) {
@@ -90,6 +90,31 @@ Json uniforms_json(const Material& material, const Prefiltered& prefiltered, con
     uniforms[place + "variance"] = lobe_variance({material.brdf.distribution, lobe.parameter});
   }
   return uniforms;
+}
+
+// All uniforms: the material's, and the scalars and vectors of the method.
+Json uniforms_json(const Material& material, const Prefiltered& prefiltered, const EffectSet& effects) {
+  Json uniforms = material_uniforms(material, effects);
+  for (const auto& [name, value] : prefiltered.scalars) uniforms[name] = value;
+  for (const auto& [name, values] : prefiltered.vectors) {
+    for (std::size_t i = 0; i < values.size(); ++i) uniforms[fmt::format("{}[{}]", name, i)] = numbers(values[i]);
+  }
+  return uniforms;
+}
+
+Json surface_coordinates_json(const Prefiltered& prefiltered) {
+  Json list = Json::array();
+  for (const glm::vec2& uv : *prefiltered.surface_coordinates) list.push_back(numbers(uv));
+  return list;
+}
+
+// The notes that a bake of another program, or a reading of these files, does not make again.
+std::vector<std::string> own_notes(const BakeToFiles& bake, std::size_t index) {
+  const BakedMethod& baked = bake.baked;
+  std::vector<std::string> notes = baked.materials[index].notes;
+  const auto common = common_notes(*baked.method, bake.scene.materials[index], baked.options, bake.effects);
+  std::erase_if(notes, [&](const std::string& note) { return std::ranges::find(common, note) != common.end(); });
+  return notes;
 }
 
 // A map that does not vary on any material of the scene is a factor, as in Footprint's own pipeline.
@@ -116,14 +141,17 @@ Json material_json(const BakeToFiles& bake, std::size_t index, const MaterialFil
   if (material.anisotropy_map && has(effects, Effect::anisotropic_lobe))
     notes.emplace_back("its anisotropy varies, and `lobe_anisotropy` is the mean");
   if (!engine.missing.empty()) notes.push_back(engine.missing);
-  return {{"name", material.name},
-          {"surface", surface_json(material, bake.effects)},
-          {"uniforms", uniforms_json(material, prefiltered, effects)},
-          {"bytes", byte_count(prefiltered)},
-          {"notes", notes},
-          {"textures", textures_json(prefiltered.textures, files.textures)},
-          {"imports", textures_json(engine.textures, files.imports)},
-          {"bumpslopes", files.bumpslopes ? Json(*files.bumpslopes) : Json()}};
+  Json document{{"name", material.name},
+                {"surface", surface_json(material, bake.effects)},
+                {"uniforms", uniforms_json(material, prefiltered, effects)},
+                {"bytes", byte_count(prefiltered)},
+                {"notes", notes},
+                {"method_notes", own_notes(bake, index)},
+                {"textures", textures_json(prefiltered.textures, files.textures)},
+                {"imports", textures_json(engine.textures, files.imports)},
+                {"bumpslopes", files.bumpslopes ? Json(*files.bumpslopes) : Json()}};
+  if (prefiltered.surface_coordinates) document["surface_coordinates"] = surface_coordinates_json(prefiltered);
+  return document;
 }
 
 Json options_json(const Options& options) {
@@ -133,26 +161,46 @@ Json options_json(const Options& options) {
   return all;
 }
 
+// The values of an object as texts.
+std::map<std::string, std::string> words_in(Json object) {
+  normalize_gltf(object);
+  std::map<std::string, std::string> words;
+  for (const auto& [name, value] : object.items()) words[name] = manifest_word(value);
+  return words;
+}
+
 }  // namespace
+
+std::map<std::string, std::string> words_of(const BaseBrdf& brdf) { return words_in(brdf_json(brdf)); }
+
+std::map<std::string, std::string> words_of(const Options& options) { return words_in(options_json(options)); }
+
+std::vector<std::string> material_uniform_names(const Material& material, const EffectSet& effects) {
+  std::vector<std::string> names;
+  const Json uniforms = material_uniforms(material, effects);
+  for (const auto& uniform : uniforms.items()) names.push_back(uniform.key());
+  return names;
+}
 
 std::string manifest_json(const BakeToFiles& bake, const BakeListing& listing) {
   const EffectSet& honours = bake.baked.method->info.honours;
   Json materials = Json::array();
   for (std::size_t i = 0; i < listing.materials.size(); ++i)
     materials.push_back(material_json(bake, i, listing.materials[i]));
-  const Json document{{"schema", "footprint-bake/1"},
-                      {"tool", {{"name", "footprint"}, {"version", bake.version}}},
-                      {"scene", {{"name", bake.scene.name}, {"source", bake.scene.source}}},
-                      {"method", bake.baked.spec.text},
-                      {"options", options_json(bake.baked.options)},
-                      {"footprint", footprint_filter_text(bake.footprint)},
-                      {"brdf", brdf_json(bake.scene.materials.front().brdf)},
-                      {"effects", effect_names(bake.effects & honours)},
-                      {"left_out", effect_names(bake.effects & ~honours)},
-                      {"module", listing.module},
-                      {"shaders", listing.shaders},
-                      {"bytes", bake.baked.bytes},
-                      {"materials", std::move(materials)}};
+  Json document{{"schema", manifest_schema},
+                {"tool", {{"name", "footprint"}, {"version", bake.version}}},
+                {"scene", {{"name", bake.scene.name}, {"source", bake.scene.source}}},
+                {"method", bake.baked.spec.text},
+                {"options", options_json(bake.baked.options)},
+                {"footprint", footprint_filter_text(bake.footprint)},
+                {"brdf", brdf_json(bake.scene.materials.front().brdf)},
+                {"effects", effect_names(bake.effects & honours)},
+                {"left_out", effect_names(bake.effects & ~honours)},
+                {"module", listing.module},
+                {"shaders", listing.shaders},
+                {"bytes", bake.baked.bytes},
+                {"materials", std::move(materials)}};
+  if (!bake.baked.method->file_content.empty()) document["method_file"] = bake.baked.method->file_content;
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

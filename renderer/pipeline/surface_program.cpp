@@ -174,12 +174,11 @@ SamplerState frame_sampler_state(const FootprintFilter& filter, const gl::Contex
   return {.linear = true, .max_anisotropy = filter.count};
 }
 
-GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked)
-    : baked_(&baked),
-      scene_(&scene),
-      build_(baked.method->frame_build(
-          {.effects = effects_of(scene, *baked.method), .brdf = scene.brdf(), .facet_lobes = scene.facet_lobes()},
-          baked.options)) {
+GpuMethod::GpuMethod(const GpuScene& scene, const BakedMethod& baked) : baked_(&baked), scene_(&scene) {
+  if (baked.given_by.empty())
+    build_ = baked.method->frame_build(
+        {.effects = effects_of(scene, *baked.method), .brdf = scene.brdf(), .facet_lobes = scene.facet_lobes()},
+        baked.options);
   batches_.resize(scene.batches().size());
   for (std::size_t i = 0; i < baked.materials.size(); ++i) upload_material(i);
 }
@@ -287,6 +286,9 @@ gl::Program method_program(const BakedMethod& baked, std::string_view name, std:
   try {
     return {fmt::format("{} ({})", name, fragment.lines()), vertex, fragment.text()};
   } catch (const Error& error) {
+    if (!baked.given_by.empty())
+      throw Error(ErrorKind::usage, baked.given_by, "its maps do not fit the method's module: " + error.message(),
+                  "bake again; a manifest that was changed must keep the names of textures and uniforms");
     if (!watch) throw;
     const int line = gl::smallest_line_in(error.message());
     const std::string_view file = baked.method->shader.file;

@@ -40,7 +40,8 @@ using TextureUploaded = std::function<void(std::size_t texture)>;
 /// A baked method's textures and values on the GPU, shared by its programs.
 class GpuMethod {
  public:
-  /// Uploads the materials that are baked by now. Textures of a frame build are empty until the first build.
+  /// Uploads the materials that are baked by now. Textures of a frame build are empty until the first build. Given maps
+  /// (BakedMethod::given_by) have no frame build.
   GpuMethod(const GpuScene& scene, const BakedMethod& baked);
   /// Uploads a material that was baked since.
   void upload_material(
@@ -131,7 +132,8 @@ inline constexpr std::chrono::seconds file_method_limit{60};
 [[nodiscard]] std::optional<DriverWatch> watch_over(const BakedMethod& baked, std::string_view work, int factor = 1);
 
 /// A program around a method's module. Throws Error: it does not compile (machine), with the compiler's log and the
-/// lines that it names; of a method from a file (usage), in the place FILE:LINE.
+/// lines that it names; of a method from a file (usage), in the place FILE:LINE; with given maps (usage), in the place
+/// of their folder.
 [[nodiscard]] gl::Program method_program(const BakedMethod& baked, std::string_view name, std::string_view vertex,
                                          const ShaderText& fragment);
 

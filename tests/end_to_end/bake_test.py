@@ -3,11 +3,13 @@
 import copy
 import json
 import re
+import struct
 import subprocess
 import sys
 import unittest
 
-from whole_runs import SOURCE, WholeRunTest, run
+from generated_model import model
+from whole_runs import PROGRAM, SOURCE, WholeRunTest, results_of, run
 
 sys.path.insert(0, str(SOURCE / "tests" / "report"))
 from schema_test import jsonschema  # exit code 77 without the package python3-jsonschema
@@ -18,6 +20,10 @@ def bake(folder, *arguments):
     return json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
 
 
+# What only `--bakes` reads, and manifests of older versions lack.
+OPTIONAL = {"method_file", "method_notes", "surface_coordinates", "lookup", "vertex_set"}
+
+
 def described(node, place):
     """Every property says what it is, and every object says which keys it takes."""
     assert node.get("description"), f"{place} has no description"
@@ -25,7 +31,7 @@ def described(node, place):
         assert "additionalProperties" in node, f"{place} takes any key"
     for name, child in node.get("properties", {}).items():
         described(child, f"{place}/{name}")
-        assert name in node["required"], f"{place}/{name} may be left out"
+        assert (name in node["required"]) != (name in OPTIONAL), f"{place}/{name} may be left out"
     if "items" in node:
         described(node["items"], f"{place}/items")
 
@@ -97,6 +103,84 @@ class BakeTest(WholeRunTest):
         output = run("bake", "v_grooves", "--method", "toksvig", "--quiet", "-o", self.folder / "again")
         self.assertIn("mean_normal: ", output)
         self.assertIn(str(self.folder / "again" / "manifest.json"), output)
+
+
+class ReadBackTest(WholeRunTest):
+    """The maps of a bake as those of a run: the same bytes, until they are changed."""
+
+    SMALL = ["--size", "32x32"]
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.scene = model(cls.folder / "model", count=2, sets=2, side=16)
+
+    def refusal(self, *arguments):
+        """The last line of a run that ends with exit code 2 and leaves nothing."""
+        out = self.folder / "refused.exr"
+        done = subprocess.run([PROGRAM, *map(str, arguments), "--quiet", "-o", out], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertFalse(out.exists())
+        return done.stderr.strip().splitlines()[-1]
+
+    def test_pictures_have_the_same_bytes(self):
+        # Plain maps, arrays, tables, and maps that the GPU builds.
+        for method in ("toksvig:storage=fp16", "tan_gmm", "ndf_atlas", "xu_vmf:j=4"):
+            name = method.replace(":", "_")
+            bake(self.folder / name, self.scene, "--method", method)
+            own = self.render(f"own_{name}", self.scene, "--method", method, *self.SMALL)
+            read = self.render(f"read_{name}", self.scene, "--method", method, "--bakes", self.folder / name, *self.SMALL)
+            self.assertEqual(own.read_bytes(), read.read_bytes(), method)
+
+    def test_compare_takes_several_folders_and_bakes_the_rest(self):
+        methods = ["direct", "toksvig", "lean:storage=fp16"]
+        arguments = [self.scene, "--methods", ",".join(methods), "--distance", "1", "--spp", "4", *self.SMALL]
+        own = results_of(self.compare("own", *arguments))
+        for name, method in (("toksvig", methods[1]), ("lean", methods[2])):
+            bake(self.folder / f"of_{name}", self.scene, "--method", method)
+            arguments += ["--bakes", self.folder / f"of_{name}"]
+        given = results_of(self.compare("given", *arguments))
+        for before, after in zip(own["records"], given["records"]):
+            first, second = (self.folder / folder / record["images"]["color"]
+                             for folder, record in (("own", before), ("given", after)))
+            self.assertEqual(first.read_bytes(), second.read_bytes(), after["method"])
+            self.assertEqual(after["precompute"]["cached"], after["method"] != "direct")
+            self.assertEqual(after["precompute"]["bytes"], before["precompute"]["bytes"])
+        warnings = "\n".join(given["scene"]["warnings"])
+        self.assertIn(f"maps from {self.folder / 'of_lean'}", warnings)
+        self.assert_matches_schema(self.folder / "given")
+
+    def test_changed_texels_change_the_picture(self):
+        maps = self.folder / "changed"
+        manifest = bake(maps, self.scene, "--method", "toksvig")
+        arguments = [self.scene, "--method", "toksvig", "--bakes", maps, *self.SMALL]
+        before = self.render("before", *arguments).read_bytes()
+        for texture in manifest["materials"][0]["textures"]:
+            file = maps / texture["ktx2"]
+            data = bytearray(file.read_bytes())
+            offset, length = struct.unpack_from("<QQ", data, 80)  # of the finest level
+            data[offset : offset + length] = struct.pack("<f", 0.25) * (length // 4)
+            file.write_bytes(data)
+        self.assertNotEqual(self.render("after", *arguments).read_bytes(), before)
+
+    def test_each_difference_is_refused(self):
+        maps = self.folder / "refused"
+        bake(maps, self.scene, "--method", "toksvig")
+        given = ["--bakes", maps, *self.SMALL]
+        self.assertIn("not of lean", self.refusal("render", self.scene, "--method", "lean", *given))
+        self.assertIn("option storage is fp32 there and fp16 here",
+                      self.refusal("render", self.scene, "--method", "toksvig:storage=fp16", *given))
+        self.assertIn("which has no maps", self.refusal("render", self.scene, "--method", "reference", *given))
+        self.assertIn("for 2 materials", self.refusal("render", "v_grooves", "--method", "toksvig", *given))
+        self.assertIn("which is none of the run's methods",
+                      self.refusal("compare", self.scene, "--methods", "direct,lean", *given))
+        self.assertIn("give one of them", self.refusal("compare", self.scene, "--bakes", maps, *given))
+        self.assertIn("the maps are for",
+                      self.refusal("compare", self.scene, "--without", "normal_variation", *given))
+        self.assertIn("no such file", self.refusal("render", self.scene, "--method", "toksvig", "--bakes", self.folder))
+        next((maps / "maps").rglob("*.ktx2")).unlink()
+        self.assertIn("copy the whole folder", self.refusal("render", self.scene, "--method", "toksvig", *given))
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@
 #include "renderer/image/mipmap.hpp"
 #include "renderer/pipeline/surface_program.hpp"
 #include "tests/methods/bare_renderer.hpp"
+#include "tests/methods/exported_bake.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/rendering.hpp"
 #include "tests/support/says.hpp"
@@ -25,26 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr glm::ivec2 frame{32, 32};
-constexpr FootprintFilter filter{FootprintFilterKind::anisotropic, 8};
+constexpr FootprintFilter filter = exported_filter;
 
-struct Bake {
-  Bake(const Scene& of, const std::string& text)
-      : scene(of),
-        effects(effects_on(derive_effects(scene))),
-        spec(parse_methods(text).front()),
-        baked(bake(find_method(spec), spec, scene, effects, no_progress)) {
-    if (waits_for_build(baked)) take_built_maps(shared_context(), scene, effects, baked);
-  }
-
-  [[nodiscard]] BakeToFiles files() const {
-    return {.scene = scene, .baked = baked, .effects = effects, .footprint = filter, .version = "0"};
-  }
-
-  Scene scene;
-  EffectSet effects;
-  MethodSpec spec;
-  BakedMethod baked;
-};
+using Bake = ExportedBake;
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "app/subcommand.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/core/memory.hpp"
@@ -154,7 +155,7 @@ void run_bake(const BakeArguments& arguments) {
         lower_extension(run.scene) == ".exr" ? std::optional(read_exr_chain(run.scene)) : std::nullopt;
     const Scene scene =
         slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library, run.overrides);
-    require_one_lookup(footprint_filter_of(run, scene), "bake");
+    require_one_lookup(footprint_filter_of(run.footprint, scene), "bake");
     const EffectSet effects = effects_on(derive_effects(scene));
     BakedMethod baked = bake_first(run, scene, effects, display.callback());
     if (slopes) take_slopes(*slopes, baked);
@@ -162,7 +163,7 @@ void run_bake(const BakeArguments& arguments) {
     const BakeToFiles bake{.scene = scene,
                            .baked = baked,
                            .effects = effects,
-                           .footprint = footprint_filter_of(run, scene),
+                           .footprint = footprint_filter_of(run.footprint, scene),
                            .version = FOOTPRINT_VERSION,
                            .engine = engine_maps_of(scene, baked),
                            .languages = languages};

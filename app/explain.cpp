@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/subcommand.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/memory.hpp"
@@ -75,7 +76,7 @@ Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet
                      const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
   auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
-  const StagedFrames wanted{.spec = run.methods.front(), .filter = footprint_filter_of(run, stage.scene())};
+  const StagedFrames wanted{.spec = run.methods.front(), .filter = footprint_filter_of(run.footprint, stage.scene())};
   StagedMethod method(context, *scene, stage.scene(),
                       prepared_method(*scene, stage.scene(), effects, wanted.spec, run, no_progress), wanted, size,
                       run.backend.tile);

@@ -1,5 +1,7 @@
 // `footprint render`: one image of a scene by a method, or by the supersampled reference.
 #include "app/subcommand.hpp"
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/names.hpp"

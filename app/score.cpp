@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/subcommand.hpp"
+#include "experiments/studies/exposure.hpp"
 #include "experiments/studies/score.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/names.hpp"

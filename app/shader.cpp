@@ -1,5 +1,6 @@
 // `footprint shader`: a method's module in a shader language, for other renderers.
 #include "app/subcommand.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/core/names.hpp"
@@ -58,7 +59,7 @@ void run_shader(const ShaderArguments& arguments) {
   ProgressDisplay display(progress_style(arguments.quiet));
   const Scene scene = run.scene.empty() ? common_scene() : load_scene(run.scene, run.scene_library, run.overrides);
   const EffectSet effects = effects_on(derive_effects(scene));
-  const FootprintFilter footprint = footprint_filter_of(run, scene);
+  const FootprintFilter footprint = footprint_filter_of(run.footprint, scene);
   require_one_lookup(footprint, "shader");
   const BakedMethod baked = bake_first(run, scene, effects, display.callback());
   display.finish();

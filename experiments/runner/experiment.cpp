@@ -13,6 +13,7 @@
 #include "experiments/runner/region.hpp"
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/stage.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"

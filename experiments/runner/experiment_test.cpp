@@ -1,5 +1,6 @@
 // Experiments as files: what is read from them, and the one error that a wrong one gives.
 #include "experiments/runner/experiment.hpp"
+#include "experiments/studies/view_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,11 @@
 #include <utility>
 
 #include "experiments/settings/setting.hpp"
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/report_facts.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"
 
@@ -399,7 +403,7 @@ ComparisonHead head_of(Job& job) {
   head.results.backend = backend_info(stage.context().info());
   head.results.scene = stage.info();
   head.results.reference = reference_of(settings, stage.effects());
-  head.results.footprint = footprint_filter_text(footprint_filter_of(settings, job.loaded()));
+  head.results.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, job.loaded()));
   head.results.timing.frames = settings.timing.repeats;
   head.results.way = way_of(settings, stage.scene());
   std::ranges::copy(job.workbench().references.warnings(), std::back_inserter(head.results.scene.warnings));

@@ -11,7 +11,10 @@
 #include <memory>
 #include <utility>
 
+#include "experiments/studies/exposure.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/report_facts.hpp"
 #include "experiments/studies/stage.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/names.hpp"
@@ -146,8 +149,8 @@ struct EditedDrawing {
         gpu_scene(context.info(), scene, effects),
         baked(std::make_unique<BakedMethod>(std::move(first))),
         method(std::make_unique<GpuMethod>(gpu_scene, *baked)),
-        frames(context.info(), gpu_scene, *method, size, frame_program(scene, footprint_filter_of(settings, scene)),
-               settings.backend.tile) {}
+        frames(context.info(), gpu_scene, *method, size,
+               frame_program(scene, footprint_filter_of(settings.footprint, scene)), settings.backend.tile) {}
 
   // Takes over what an edit changed. Waits until the GPU has it.
   void exchange(const Scene& scene, BakedMethod next) {

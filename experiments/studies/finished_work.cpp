@@ -11,9 +11,11 @@
 #include <system_error>
 #include <utility>
 
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/given_bakes.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/stage.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/figures.hpp"
@@ -203,7 +205,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
   hash.add(scene.source);
   hash.add(settings.without.to_string());
   hash.add(fmt::format("{} {} {}", settings.backend.tile, settings.by_material,
-                       footprint_filter_text(footprint_filter_of(settings, scene))));
+                       footprint_filter_text(footprint_filter_of(settings.footprint, scene))));
   for (const MethodSpec& method : settings.methods) {
     hash.add(method.text);
     if (method.file) hash.add(method.file->file_content);

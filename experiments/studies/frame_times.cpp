@@ -13,6 +13,7 @@
 #include <set>
 
 #include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/sample_sequence.hpp"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/studies/stage.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "renderer/image/image.hpp"
 #include "renderer/pipeline/history.hpp"
 #include "results/report/records.hpp"

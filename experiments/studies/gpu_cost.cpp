@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "experiments/studies/frame_setup.hpp"
+#include "experiments/studies/report_facts.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
@@ -255,7 +257,7 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
   CostReport report;
   report.backend = backend_info(stage.context().info());
   report.scene = stage.info();
-  report.footprint = footprint_filter_text(footprint_filter_of(settings, stage.scene()));
+  report.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, stage.scene()));
   report.compiler = gpus.compiler();
   report.size = {view.size.x, view.size.y};
   report.distance = distance_of(settings);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "experiments/studies/compare.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/figures.hpp"

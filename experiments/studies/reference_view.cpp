@@ -14,6 +14,7 @@
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "methods/registry.hpp"
 #include "renderer/image/image_io.hpp"
 #include "renderer/image/metrics.hpp"

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "experiments/studies/stage.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "renderer/core/run_folder.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/image/image.hpp"

@@ -1,32 +1,25 @@
-// Equal ratios of distance in a zoom, and turns about an axis through the centre of the bounds, in double. Sets up a
-// stage in order: context, scene, methods, reference.
+// Sets up a stage in order: context, scene, methods, reference.
 #include "experiments/studies/stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <glm/gtc/matrix_transform.hpp>
 #include <new>
 #include <utility>
-#include <variant>
 
 #include "experiments/settings/setting.hpp"
+#include "experiments/studies/frame_setup.hpp"
 #include "experiments/studies/given_bakes.hpp"
-#include "experiments/studies/picture_files.hpp"
+#include "experiments/studies/report_facts.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "methods/registry.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/effects/effects.hpp"
 #include "renderer/pipeline/base_surface.hpp"
-#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {
-
-constexpr int default_width = 512;
-constexpr float highest_default = 1 << 20;  // of a camera narrower than a hair
-constexpr std::uint64_t pixel_bytes = 16;   // RGBA, 32-bit floats
 
 // Textures are freed one after the other as they are uploaded: at most one is in memory twice.
 void require_upload(const Prefiltered& prefiltered) {
@@ -63,140 +56,7 @@ bool clear_errors(const gl::Context& context) {
   return std::ranges::any_of(errors, [](const std::string& e) { return e.find("CONTEXT_LOST") != std::string::npos; });
 }
 
-constexpr double percentile = 0.95;
-constexpr float target_luminance = 0.8F;
-
-constexpr double default_zoom = 8.0;
-
-// Nine digits: 4, where the powers give 3.9999999999999996.
-double rounded(double value) {
-  const double scale = std::pow(10.0, 8.0 - std::floor(std::log10(value)));
-  return std::round(value * scale) / scale;
-}
-
-constexpr double default_turn = 60.0;  // degrees
-
-[[noreturn]] void refuse(const char* option, const char* why) {
-  throw Error(ErrorKind::usage, option, why, "leave it out, or choose another --path");
-}
-
-void require_settings_of_its_own(const RunSettings& settings) {
-  if (!is_animation(settings)) return;
-  const bool zooms = settings.path.kind == AnimationPath::zoom;
-  const bool plays = settings.path.kind == AnimationPath::animation;
-  if ((zooms || plays) && settings.path.degrees) refuse("--degrees", "this path does not turn");
-  if ((zooms || plays) && settings.path.axis) refuse("--axis", "this path does not turn");
-  if (!plays && settings.path.until) refuse("--until", "this path follows no animation");
-  if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
-  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is not a zoom");
-  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is not a zoom");
-}
-
-double first_time(const RunSettings& settings) { return settings.overrides.model.time.value_or(0.0); }
-
-// At equal times from --time to --until.
-void set_times(const RunSettings& settings, const Scene& scene, std::vector<RunView>& views) {
-  const double from = first_time(settings);
-  const double until = settings.path.until.value_or(scene.motion ? scene.motion->last_key : from);
-  if (from == until)
-    throw Error(ErrorKind::usage, "--until", fmt::format("the animation ends at {:g} s, where it starts", until),
-                "let --time and --until differ");
-  for (RunView& view : views) view.seconds = from + (until - from) * view.frame / static_cast<double>(views.size() - 1);
-}
-
-// The turn that a path has made in a frame, about the centre of the bounds.
-glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const RunView& view) {
-  const glm::dvec3 axis = turning_axis(path, scene);
-  const glm::dvec3 centre(scene.bounds.centre());
-  return glm::translate(glm::dmat4(1.0), centre) * glm::rotate(glm::dmat4(1.0), glm::radians(view.degrees), axis) *
-         glm::translate(glm::dmat4(1.0), -centre);
-}
-
-// A light turned: its positions and its directions.
-Light turned(Light light, const glm::dmat4& turn) {
-  const auto point = [&](const glm::vec3& at) { return glm::vec3(turn * glm::dvec4(glm::dvec3(at), 1.0)); };
-  const auto direction = [&](const glm::vec3& to) {
-    return glm::normalize(glm::vec3(glm::dmat3(turn) * glm::dvec3(to)));
-  };
-  const auto turn_members = [&](auto& own) {
-    if constexpr (requires { own.point; }) own.point.position = point(own.point.position);
-    if constexpr (requires { own.position; }) own.position = point(own.position);
-    if constexpr (requires { own.direction; }) own.direction = direction(own.direction);
-    if constexpr (requires { own.across; }) {
-      own.across = direction(own.across);
-      own.up = direction(own.up);
-    }
-  };
-  std::visit(turn_members, light);
-  return light;
-}
-
-bool casts_shadows(const Scene& scene) {
-  return std::ranges::any_of(derive_effects(scene), [](const EffectDecision& decision) {
-    return decision.effect == Effect::cast_shadow && decision.on;
-  });
-}
-
 }  // namespace
-
-float automatic_exposure(const Image& reference) {
-  std::vector<float> luminances;
-  for (std::size_t i = 0; i < reference.texels.size(); i += 4) {
-    const float* const p = &reference.texels[i];
-    if (p[3] == 1.0F) luminances.push_back(luminance(p[0], p[1], p[2]));
-  }
-  if (luminances.empty()) return 1.0F;
-  const auto nth =
-      luminances.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(luminances.size() - 1));
-  std::ranges::nth_element(luminances, nth);
-  return *nth > 0.0F && std::isfinite(*nth) ? target_luminance / *nth : 1.0F;
-}
-
-Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene, const Image& first_reference) {
-  if (given) return *given;
-  if (scene.exposure) return {.factor = *scene.exposure, .source = ExposureSource::scene};
-  return {.factor = automatic_exposure(first_reference), .source = ExposureSource::automatic};
-}
-
-BackendInfo backend_info(const gl::ContextInfo& context) {
-  return {
-      .name = std::string(gl::backend_name(context.backend)), .renderer = context.renderer, .version = context.version};
-}
-
-SceneInfo scene_info(const Scene& scene, const Exposure& exposure) {
-  SceneInfo info{.name = scene.name,
-                 .source = scene.source,
-                 .triangles = 0,
-                 .materials = scene.materials.size(),
-                 .lights = scene.lights.size(),
-                 .exposure = exposure.factor,
-                 .exposure_source = std::string(word_for(exposure_sources, exposure.source)),
-                 .defaults = scene.defaults,
-                 .warnings = scene.warnings};
-  for (const Mesh& mesh : scene.meshes) info.triangles += mesh.indices.size() / 3;
-  return info;
-}
-
-glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted) {
-  glm::ivec2 size(default_width, default_width);
-  if (scene.camera.aspect) {
-    size.y = static_cast<int>(std::lround(std::clamp(default_width / *scene.camera.aspect, 1.0F, highest_default)));
-  }
-  if (scene.frame_size) size = *scene.frame_size;
-  if (wanted) size = *wanted;
-  if (size.x < 1 || size.y < 1) {
-    throw Error(ErrorKind::usage, "--size", fmt::format("{}x{} has no pixel", size.x, size.y), "give at least 1x1");
-  }
-  return size;
-}
-
-FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene) {
-  return settings.footprint.value_or(scene.footprint.value_or(default_footprint_filter));
-}
-
-ShaderVariant frame_program(const Scene& scene, const FootprintFilter& filter) {
-  return {.footprint = filter, .orthographic = scene.camera.orthographic};
-}
 
 std::optional<DiskCache> cache_of(const RunSettings& settings) {
   if (!settings.cache) return {};
@@ -208,12 +68,6 @@ BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const Ef
   const MethodSpec& spec = settings.methods.front();
   const std::optional<DiskCache> files = cache_of(settings);
   return bake(find_method(spec), spec, scene, effects, progress, files ? &*files : nullptr);
-}
-
-void require_pictures(const glm::ivec2& size, int count) {
-  const std::uint64_t bytes = frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y),
-                                          pixel_bytes * static_cast<std::uint64_t>(count));
-  require_memory(bytes, fmt::format("{} images of {}x{}", count, size.x, size.y));
 }
 
 std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
@@ -318,7 +172,7 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
 // The unit is a single frame of `direct` under its filter, added where it is not there yet. `direct:option=...` is
 // another method.
 std::vector<StagedFrames> Stage::wanted_methods(bool has_unit) {
-  const FootprintFilter own = footprint_filter_of(settings_, scene());
+  const FootprintFilter own = footprint_filter_of(settings_.footprint, scene());
   std::vector<StagedFrames> wanted;
   for (const MethodSpec& spec : settings_.methods)
     wanted.push_back({.spec = spec, .filter = own, .history = history_of(spec, settings_.history)});
@@ -381,13 +235,13 @@ View Stage::move_to(const RunView& view) {
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {
-  return staged({.spec = method, .filter = footprint_filter_of(settings_, scene())}, progress);
+  return staged({.spec = method, .filter = footprint_filter_of(settings_.footprint, scene())}, progress);
 }
 
 InteriorFinder Stage::interior_finder() const { return {*prepared_->gpu, scene()}; }
 
 FrameRenderer Stage::dense_frames(const StagedMethod& method) const {
-  ShaderVariant wanted = frame_program(scene(), footprint_filter_of(settings_, scene()));
+  ShaderVariant wanted = frame_program(scene(), footprint_filter_of(settings_.footprint, scene()));
   wanted.environment = EnvironmentUse::dense;
   return {context().info(), *prepared_->gpu, method.gpu(), size_, wanted, settings_.backend.tile};
 }
@@ -407,126 +261,6 @@ ForwardProgram Stage::program_for_cost(const StagedMethod& method, const FixedTr
 Supersampler Stage::finest_level(const StagedMethod& method) const {
   return {context().info(),      *prepared_->gpu, method.gpu(), settings_.reference.filter, scene().camera.orthographic,
           settings_.backend.tile};
-}
-
-std::vector<double> zoom_distances(double from, double to, int frames) {
-  std::vector<double> distances;
-  distances.reserve(static_cast<std::size_t>(frames));
-  for (int i = 0; i < frames; ++i) {
-    distances.push_back(rounded(from * std::pow(to / from, static_cast<double>(i) / (frames - 1))));
-  }
-  distances.front() = from;
-  distances.back() = to;
-  return distances;
-}
-
-std::vector<double> given_distances(const ViewSettings& view) {
-  const ZoomSettings& zoom = view.zoom;
-  if (zoom.frames == 0) return view.distances;
-  if (!zoom.from || !zoom.to) return {};
-  return zoom_distances(*zoom.from, *zoom.to, zoom.frames);
-}
-
-std::vector<double> run_distances(const ViewSettings& view, const Scene& scene) {
-  const ZoomSettings& zoom = view.zoom;
-  if (zoom.frames == 0) return view.distances.empty() ? scene.distances : view.distances;
-  const double from = zoom.from.value_or(scene.distances.front());
-  const double last = scene.distances.size() > 1 ? scene.distances.back() : default_zoom * from;
-  const double to = zoom.to.value_or(last);
-  if (from == to) {
-    throw Error(ErrorKind::usage, "--to", fmt::format("the zoom ends at {:g}, where it starts", to),
-                "let --from and --to differ");
-  }
-  return zoom_distances(from, to, zoom.frames);
-}
-
-std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) {
-  require_settings_of_its_own(settings);
-  std::vector<RunView> views;
-  const auto add = [&](double distance, double degrees) {
-    const auto frame = static_cast<std::uint32_t>(settings.view.zoom.frames > 0 ? views.size() : 0);
-    views.push_back({.distance = distance, .degrees = degrees, .frame = frame});
-  };
-  if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {
-    for (const double distance : run_distances(settings.view, scene)) add(distance, 0.0);
-    return views;
-  }
-  if (settings.path.kind == AnimationPath::light && scene.lights.empty())
-    throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
-                "take --path orbit");
-  const int count = settings.view.zoom.frames;
-  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
-  const bool plays = settings.path.kind == AnimationPath::animation;
-  const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
-  for (int i = 0; i < count; ++i) add(distance, turn * i / (count - 1));
-  if (plays) set_times(settings, scene, views);
-  return views;
-}
-
-std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view) {
-  if (!is_animation(settings)) return fmt::format("distance {:g}", view.distance);
-  return fmt::format("frame {} of {}", index + 1, settings.view.zoom.frames);
-}
-
-std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view, const std::string& what) {
-  return is_animation(settings) ? fmt::format("{}_{:04}", what, index) : distance_stem(view.distance, what);
-}
-
-glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene) {
-  return path.axis.value_or(glm::normalize(glm::dvec3(scene.camera.world[1])));
-}
-
-Camera camera_on_path(const PathSettings& path, const Scene& scene, const RunView& view) {
-  Camera camera = camera_at_distance(scene, view.distance);
-  if (path.kind != AnimationPath::orbit || view.degrees == 0.0) return camera;
-  camera.world = glm::mat4(turn_of(path, scene, view) * glm::dmat4(camera.world));
-  return camera;
-}
-
-std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, const std::vector<Light>& lights,
-                                  const RunView& view) {
-  if (path.kind != AnimationPath::light || view.degrees == 0.0) return lights;
-  const glm::dmat4 turn = turn_of(path, scene, view);
-  std::vector<Light> moved;
-  for (const Light& light : lights) moved.push_back(turned(light, turn));
-  return moved;
-}
-
-Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<PlacedBounds>& bounds) {
-  SceneOverrides overrides = settings.overrides;
-  overrides.model.time = seconds;
-  overrides.bounds = bounds;
-  return load_scene(settings.scene, settings.scene_library, overrides);
-}
-
-Scene scene_of_run(const RunSettings& settings) {
-  if (settings.path.kind != AnimationPath::animation)
-    return load_scene(settings.scene, settings.scene_library, settings.overrides);
-  const Scene first = scene_at_time(settings, first_time(settings), {});
-  WideBounds bounds;
-  bounds.add(first.bounds, first.origin);
-  bool casts = false;
-  for (const RunView& view : run_views(settings, first)) {
-    const Scene posed = scene_at_time(settings, view.seconds, {});
-    bounds.add(posed.bounds, posed.origin);
-    casts = casts || casts_shadows(posed);
-  }
-  const glm::dvec3 origin = origin_for(bounds);
-  Scene scene = scene_at_time(settings, first_time(settings), PlacedBounds{bounds.from(origin), origin});
-  if (casts && !scene.shadows.cast) scene.shadows.cast = true;
-  return scene;
-}
-
-Scene scene_for_path(const RunSettings& settings, Scene scene) {
-  if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
-  Scene moved = scene;
-  const std::vector<RunView> views = run_views(settings, scene);
-  const bool casts = std::ranges::any_of(views, [&](const RunView& view) {
-    moved.lights = lights_on_path(settings.path, scene, scene.lights, view);
-    return casts_shadows(moved);
-  });
-  if (casts) scene.shadows.cast = true;
-  return scene;
 }
 
 }  // namespace footprint

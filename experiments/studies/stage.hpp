@@ -1,10 +1,7 @@
-// The views of a run, which are its distances (given, a zoom's or the scene's own) or the frames of a path; and the
-// part of a run over one scene that is on the GPU: context, scene, and the methods ready to draw, with their facts for
-// the head of a report.
+// The part of a run over one scene that is on the GPU: context, scene, and the methods ready to draw.
 #pragma once
 
-#include <compare>
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +10,8 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "experiments/studies/frame_setup.hpp"
+#include "experiments/studies/view_path.hpp"
 #include "renderer/core/disk_cache.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/gl/context.hpp"
@@ -24,96 +23,6 @@
 #include "results/report/records.hpp"
 
 namespace footprint {
-
-/// `frames` (2 or more) factors on the camera's distance from `from` to `to` (above 0), at equal ratios: each step
-/// looks like the one before.
-[[nodiscard]] std::vector<double> zoom_distances(double from, double to, int frames);
-
-/// Those of a run that are known without its scene; empty: the scene decides.
-[[nodiscard]] std::vector<double> given_distances(const ViewSettings& view);
-
-/// Those of a run over `scene`, one or more. Errors (usage): a zoom that ends where it starts.
-[[nodiscard]] std::vector<double> run_distances(const ViewSettings& view, const Scene& scene);
-
-/// One view of the scene.
-struct RunView {
-  double distance = 1;      ///< factor on the camera's distance
-  double degrees = 0;       ///< that camera or lights have turned by since the first view
-  double seconds = 0;       ///< time of the model file's animation, on a path that follows it
-  std::uint32_t frame = 0;  ///< number on a path of several frames
-
-  friend auto operator<=>(const RunView&, const RunView&) = default;  // NOLINT(modernize-use-nullptr): no pointer
-};
-
-/// Whether the views are the frames of an animation: only images, errors and flicker are measured.
-[[nodiscard]] inline bool is_animation(const RunSettings& settings) { return settings.path.kind.has_value(); }
-
-/// The views of a run over `scene`: its distances, or as many frames of its path as the settings of its zoom say.
-/// Errors (usage): a zoom that ends where it starts; a setting that the path has no use for; lights are to move and the
-/// scene has none but an environment.
-[[nodiscard]] std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene);
-
-/// A view in messages: "distance 4", or of an animation "frame 3 of 30".
-[[nodiscard]] std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view);
-
-/// The file name part of something in a view: "d4_WHAT", or of an animation "WHAT_0002".
-[[nodiscard]] std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view,
-                                    const std::string& what);
-
-/// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames and with
-/// shadows where any frame has them.
-/// Errors: as load_scene.
-[[nodiscard]] Scene scene_of_run(const RunSettings& settings);
-
-/// The scene at a time of its animation.
-/// bounds: of all frames, by which cameras and lights without a place of their own are placed.
-/// Errors: as load_scene.
-[[nodiscard]] Scene scene_at_time(const RunSettings& settings, double seconds,
-                                  const std::optional<PlacedBounds>& bounds);
-
-/// The axis of a path, unit: the camera's up by default.
-[[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);
-
-/// The camera in a view.
-[[nodiscard]] Camera camera_on_path(const PathSettings& path, const Scene& scene, const RunView& view);
-
-/// The lights in a view: turned around the centre of the bounds, positions and directions alike. The environment
-/// stays.
-/// lights: those of the first view.
-[[nodiscard]] std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene,
-                                                const std::vector<Light>& lights, const RunView& view);
-
-/// The scene as a path's first frame has it, with shadows switched on where any of its frames calls for them: effects
-/// are chosen once for all frames.
-[[nodiscard]] Scene scene_for_path(const RunSettings& settings, Scene scene);
-
-/// The factor that takes the 95th percentile of the luminance of a picture's object pixels to 0.8: bright parts keep
-/// their drawing, the sharpest highlights clip. 1 where the picture is black or has no object pixel. RGBA with
-/// coverage.
-[[nodiscard]] float automatic_exposure(const Image& reference);
-
-/// The given exposure, else the scene's own, else the automatic one of its first reference.
-[[nodiscard]] Exposure choose_exposure(const std::optional<Exposure>& given, const Scene& scene,
-                                       const Image& first_reference);
-
-/// The backend; the processor is left to the program, which knows it.
-[[nodiscard]] BackendInfo backend_info(const gl::ContextInfo& context);
-
-/// The scene with its exposure.
-[[nodiscard]] SceneInfo scene_info(const Scene& scene, const Exposure& exposure);
-
-/// Images of the frame's size in memory at once in most runs: the frame, and two while it is written.
-inline constexpr int pictures_of_a_frame = 3;
-
-/// The size of a frame: `wanted`, else scene.toml's, else 512 wide in the aspect of the camera (square without one).
-/// Errors (usage): a side below 1.
-[[nodiscard]] glm::ivec2 frame_size(const Scene& scene, const std::optional<glm::ivec2>& wanted);
-
-/// The footprint filter: the settings', else the scene's, else default_footprint_filter.
-[[nodiscard]] FootprintFilter footprint_filter_of(const RunSettings& settings, const Scene& scene);
-
-/// What is wanted of a program that draws frames of a scene (forward_program).
-[[nodiscard]] ShaderVariant frame_program(const Scene& scene, const FootprintFilter& filter);
 
 /// How a stage is set up.
 struct StageOptions {
@@ -138,9 +47,6 @@ struct StageOptions {
 /// The maps of the settings' first method, by that cache.
 [[nodiscard]] BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const EffectSet& effects,
                                      const Progress& progress);
-
-/// Errors (machine): so many images (RGBA, 32-bit floats) of this size exceed memory.
-void require_pictures(const glm::ivec2& size, int count);
 
 /// The maps of a method in memory and on the GPU, which serve frames of every size under every footprint filter.
 struct PreparedMethod {

@@ -1,5 +1,6 @@
 // In which order a stage makes its methods, and in which it has them.
 #include "experiments/studies/stage.hpp"
+#include "experiments/studies/view_path.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

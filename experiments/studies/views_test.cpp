@@ -1,5 +1,6 @@
 // The positions of camera and lights along a path, on a scene without a file.
 #include "experiments/studies/stage.hpp"
+#include "experiments/studies/view_path.hpp"
 
 #include <gtest/gtest.h>
 

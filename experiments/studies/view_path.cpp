@@ -1,0 +1,214 @@
+// Equal ratios of distance in a zoom, and turns about an axis through the centre of the bounds, in double.
+#include "experiments/studies/view_path.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
+#include <utility>
+#include <variant>
+
+#include "experiments/studies/picture_files.hpp"
+#include "renderer/core/error.hpp"
+#include "renderer/effects/effects.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
+
+namespace footprint {
+namespace {
+
+constexpr double default_zoom = 8.0;
+
+// Nine digits: 4, where the powers give 3.9999999999999996.
+double rounded(double value) {
+  const double scale = std::pow(10.0, 8.0 - std::floor(std::log10(value)));
+  return std::round(value * scale) / scale;
+}
+
+constexpr double default_turn = 60.0;  // degrees
+
+[[noreturn]] void refuse(const char* option, const char* why) {
+  throw Error(ErrorKind::usage, option, why, "leave it out, or choose another --path");
+}
+
+void require_settings_of_its_own(const RunSettings& settings) {
+  if (!is_animation(settings)) return;
+  const bool zooms = settings.path.kind == AnimationPath::zoom;
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  if ((zooms || plays) && settings.path.degrees) refuse("--degrees", "this path does not turn");
+  if ((zooms || plays) && settings.path.axis) refuse("--axis", "this path does not turn");
+  if (!plays && settings.path.until) refuse("--until", "this path follows no animation");
+  if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
+  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is not a zoom");
+  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is not a zoom");
+}
+
+double first_time(const RunSettings& settings) { return settings.overrides.model.time.value_or(0.0); }
+
+// At equal times from --time to --until.
+void set_times(const RunSettings& settings, const Scene& scene, std::vector<RunView>& views) {
+  const double from = first_time(settings);
+  const double until = settings.path.until.value_or(scene.motion ? scene.motion->last_key : from);
+  if (from == until)
+    throw Error(ErrorKind::usage, "--until", fmt::format("the animation ends at {:g} s, where it starts", until),
+                "let --time and --until differ");
+  for (RunView& view : views) view.seconds = from + (until - from) * view.frame / static_cast<double>(views.size() - 1);
+}
+
+// The turn that a path has made in a frame, about the centre of the bounds.
+glm::dmat4 turn_of(const PathSettings& path, const Scene& scene, const RunView& view) {
+  const glm::dvec3 axis = turning_axis(path, scene);
+  const glm::dvec3 centre(scene.bounds.centre());
+  return glm::translate(glm::dmat4(1.0), centre) * glm::rotate(glm::dmat4(1.0), glm::radians(view.degrees), axis) *
+         glm::translate(glm::dmat4(1.0), -centre);
+}
+
+// A light turned: its positions and its directions.
+Light turned(Light light, const glm::dmat4& turn) {
+  const auto point = [&](const glm::vec3& at) { return glm::vec3(turn * glm::dvec4(glm::dvec3(at), 1.0)); };
+  const auto direction = [&](const glm::vec3& to) {
+    return glm::normalize(glm::vec3(glm::dmat3(turn) * glm::dvec3(to)));
+  };
+  const auto turn_members = [&](auto& own) {
+    if constexpr (requires { own.point; }) own.point.position = point(own.point.position);
+    if constexpr (requires { own.position; }) own.position = point(own.position);
+    if constexpr (requires { own.direction; }) own.direction = direction(own.direction);
+    if constexpr (requires { own.across; }) {
+      own.across = direction(own.across);
+      own.up = direction(own.up);
+    }
+  };
+  std::visit(turn_members, light);
+  return light;
+}
+
+bool casts_shadows(const Scene& scene) {
+  return std::ranges::any_of(derive_effects(scene), [](const EffectDecision& decision) {
+    return decision.effect == Effect::cast_shadow && decision.on;
+  });
+}
+
+}  // namespace
+
+std::vector<double> zoom_distances(double from, double to, int frames) {
+  std::vector<double> distances;
+  distances.reserve(static_cast<std::size_t>(frames));
+  for (int i = 0; i < frames; ++i) {
+    distances.push_back(rounded(from * std::pow(to / from, static_cast<double>(i) / (frames - 1))));
+  }
+  distances.front() = from;
+  distances.back() = to;
+  return distances;
+}
+
+std::vector<double> given_distances(const ViewSettings& view) {
+  const ZoomSettings& zoom = view.zoom;
+  if (zoom.frames == 0) return view.distances;
+  if (!zoom.from || !zoom.to) return {};
+  return zoom_distances(*zoom.from, *zoom.to, zoom.frames);
+}
+
+std::vector<double> run_distances(const ViewSettings& view, const Scene& scene) {
+  const ZoomSettings& zoom = view.zoom;
+  if (zoom.frames == 0) return view.distances.empty() ? scene.distances : view.distances;
+  const double from = zoom.from.value_or(scene.distances.front());
+  const double last = scene.distances.size() > 1 ? scene.distances.back() : default_zoom * from;
+  const double to = zoom.to.value_or(last);
+  if (from == to) {
+    throw Error(ErrorKind::usage, "--to", fmt::format("the zoom ends at {:g}, where it starts", to),
+                "let --from and --to differ");
+  }
+  return zoom_distances(from, to, zoom.frames);
+}
+
+std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) {
+  require_settings_of_its_own(settings);
+  std::vector<RunView> views;
+  const auto add = [&](double distance, double degrees) {
+    const auto frame = static_cast<std::uint32_t>(settings.view.zoom.frames > 0 ? views.size() : 0);
+    views.push_back({.distance = distance, .degrees = degrees, .frame = frame});
+  };
+  if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {
+    for (const double distance : run_distances(settings.view, scene)) add(distance, 0.0);
+    return views;
+  }
+  if (settings.path.kind == AnimationPath::light && scene.lights.empty())
+    throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
+                "take --path orbit");
+  const int count = settings.view.zoom.frames;
+  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
+  for (int i = 0; i < count; ++i) add(distance, turn * i / (count - 1));
+  if (plays) set_times(settings, scene, views);
+  return views;
+}
+
+std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view) {
+  if (!is_animation(settings)) return fmt::format("distance {:g}", view.distance);
+  return fmt::format("frame {} of {}", index + 1, settings.view.zoom.frames);
+}
+
+std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view, const std::string& what) {
+  return is_animation(settings) ? fmt::format("{}_{:04}", what, index) : distance_stem(view.distance, what);
+}
+
+glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene) {
+  return path.axis.value_or(glm::normalize(glm::dvec3(scene.camera.world[1])));
+}
+
+Camera camera_on_path(const PathSettings& path, const Scene& scene, const RunView& view) {
+  Camera camera = camera_at_distance(scene, view.distance);
+  if (path.kind != AnimationPath::orbit || view.degrees == 0.0) return camera;
+  camera.world = glm::mat4(turn_of(path, scene, view) * glm::dmat4(camera.world));
+  return camera;
+}
+
+std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, const std::vector<Light>& lights,
+                                  const RunView& view) {
+  if (path.kind != AnimationPath::light || view.degrees == 0.0) return lights;
+  const glm::dmat4 turn = turn_of(path, scene, view);
+  std::vector<Light> moved;
+  for (const Light& light : lights) moved.push_back(turned(light, turn));
+  return moved;
+}
+
+Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<PlacedBounds>& bounds) {
+  SceneOverrides overrides = settings.overrides;
+  overrides.model.time = seconds;
+  overrides.bounds = bounds;
+  return load_scene(settings.scene, settings.scene_library, overrides);
+}
+
+Scene scene_of_run(const RunSettings& settings) {
+  if (settings.path.kind != AnimationPath::animation)
+    return load_scene(settings.scene, settings.scene_library, settings.overrides);
+  const Scene first = scene_at_time(settings, first_time(settings), {});
+  WideBounds bounds;
+  bounds.add(first.bounds, first.origin);
+  bool casts = false;
+  for (const RunView& view : run_views(settings, first)) {
+    const Scene posed = scene_at_time(settings, view.seconds, {});
+    bounds.add(posed.bounds, posed.origin);
+    casts = casts || casts_shadows(posed);
+  }
+  const glm::dvec3 origin = origin_for(bounds);
+  Scene scene = scene_at_time(settings, first_time(settings), PlacedBounds{bounds.from(origin), origin});
+  if (casts && !scene.shadows.cast) scene.shadows.cast = true;
+  return scene;
+}
+
+Scene scene_for_path(const RunSettings& settings, Scene scene) {
+  if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
+  Scene moved = scene;
+  const std::vector<RunView> views = run_views(settings, scene);
+  const bool casts = std::ranges::any_of(views, [&](const RunView& view) {
+    moved.lights = lights_on_path(settings.path, scene, scene.lights, view);
+    return casts_shadows(moved);
+  });
+  if (casts) scene.shadows.cast = true;
+  return scene;
+}
+
+}  // namespace footprint

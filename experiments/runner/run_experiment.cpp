@@ -288,13 +288,14 @@ FurtherFigures further_figures(const Experiment& experiment, const RunFolder& fo
                                const FinishedWork* finished) {
   const RunSettings& run = experiment.run;
   const Scene scene = load_scene(run.scene, run.scene_library, run.overrides);
-  if (finished == nullptr) return measured_figures(experiment, scene, folder, progress);
-  const std::string key =
-      run_fingerprint(finished->maker(), run, scene, scene_content(scene), figure_content(experiment)) + "/figures";
-  if (auto known = finished->find<FurtherFigures>(key, folder)) return std::move(*known);
-  finished->require_more_allowed(run.scene);
+  std::string fingerprint;
+  if (finished != nullptr)
+    fingerprint = run_fingerprint(finished->maker(), run, scene, scene_content(scene), figure_content(experiment));
+  const KeptParts kept(finished, fingerprint, folder);
+  if (auto known = kept.find<FurtherFigures>("figures")) return std::move(*known);
+  if (finished != nullptr) finished->require_more_allowed(run.scene);
   FurtherFigures figures = measured_figures(experiment, scene, folder, progress);
-  folder.attempt(key, [&] { finished->store(key, figures, folder.path(), files_below(folder.path(), "ndf")); });
+  kept.store("figures", figures, files_below(folder.path(), "ndf"));
   return figures;
 }
 

@@ -151,4 +151,16 @@ struct RunSettings {
   std::optional<std::filesystem::path> cache;  ///< folder of cached bakes; none: they are not cached
 };
 
+/// What a run measures over its views.
+enum class RunKind : std::uint8_t {
+  comparison,  ///< errors and times at distances
+  zoom,        ///< the same at the distances of a path, and flicker from each to the next
+  animation    ///< images, errors and flicker of the frames of a path, without times
+};
+
+[[nodiscard]] inline RunKind kind_of(const RunSettings& run) {
+  if (run.path.kind) return RunKind::animation;
+  return run.view.zoom.frames > 0 ? RunKind::zoom : RunKind::comparison;
+}
+
 }  // namespace footprint

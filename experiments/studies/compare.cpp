@@ -1,4 +1,4 @@
-// Chooses the exposure, then for each view: the reference, the methods, their times. Finished views are read back.
+// The views of a run, one after the other: reference, methods, files, times. Finished views are read back.
 #include "experiments/studies/compare.hpp"
 
 #include <fmt/format.h>
@@ -10,12 +10,12 @@
 
 #include "experiments/settings/setting.hpp"
 #include "experiments/studies/exposure.hpp"
-#include "experiments/studies/frame_setup.hpp"
+#include "experiments/studies/flicker.hpp"
+#include "experiments/studies/measured_view.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "experiments/studies/report_facts.hpp"
-#include "experiments/studies/view_path.hpp"
+#include "experiments/studies/view_files.hpp"
 #include "renderer/image/image_io.hpp"
-#include "renderer/image/metrics.hpp"
 
 namespace footprint {
 namespace {
@@ -25,137 +25,106 @@ namespace {
 int images_at_once(const RunSettings& settings) {
   const int methods = static_cast<int>(settings.methods.size());
   const int histories = 3 * static_cast<int>(count_histories(settings));  // two targets and their depths
-  return histories + (is_animation(settings) ? 2 * methods + 28 : 6 * methods + 15);
+  return histories + (kind_of(settings) == RunKind::animation ? 2 * methods + 28 : 6 * methods + 15);
 }
 
-double weight_of_methods(const RunSettings& settings) {
-  return static_cast<double>(settings.methods.size()) * (settings.reference.spp + settings.timing.repeats);
-}
+// ---- what draws
 
-// Everything that renders, created with the first image.
-struct Workbench {
-  Workbench(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const RunFolder& folder,
-            const Progress& staging, ProgressParts& progress, SharedReferences* shared, const GpuCompiler& compiler)
-      : stage(std::move(scene), settings, staging,
-              {.has_unit = !is_animation(settings), .records_refusals = !is_animation(settings)}),
-        frames(stage, settings),
-        measurer(stage),
-        references(settings, stage, folder, progress, shared) {
-    if (!settings.gpus.empty()) gpu_costs.emplace(stage, settings.gpus, compiler);
+// What a run draws with. Pinned: the parts keep the stage's address.
+struct Tools {
+  Tools(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const std::vector<PlannedView>& views,
+        const GpuCompiler& compiler, const Progress& progress)
+      : stage(std::move(scene), settings, progress, options_of(kind_of(settings))),
+        reference(reference_tools(stage, bound_of(settings))),
+        methods{.frames = MethodFrames(stage, views)} {
+    if (!settings.gpus.empty()) methods.gpu_costs.emplace(stage, settings.gpus, compiler);
+  }
+
+  static StageOptions options_of(RunKind kind) {
+    return {.has_unit = kind != RunKind::animation, .records_refusals = kind != RunKind::animation};
+  }
+
+  // Histories have no footprint filter, so the bound of one says nothing of them.
+  static BoundUse bound_of(const RunSettings& settings) {
+    return count_histories(settings) == settings.methods.size() ? BoundUse::off : settings.reference.bound;
   }
 
   Stage stage;
-  MethodFrames frames;
-  MethodMeasurer measurer;
-  ReferenceRenderer references;
-  std::optional<GpuCosts> gpu_costs{};
+  ReferenceTools reference;
+  MethodTools methods;
 };
 
-// A run's inputs, and its workbench once something is rendered.
-struct Job {
-  Job(const RunSettings& of, RunFolder into, const Progress& all, const CompareContext& with)
-      : settings(of),
-        folder(std::move(into)),
-        context(with),
-        whole(all, 4),
-        staging(whole.next(1, "")),
-        scene(context.shared != nullptr ? Scene{} : scene_for_path(settings, scene_of_run(settings))),
-        views(run_views(settings, loaded())),
-        progress(whole.next(3, ""), static_cast<double>(views.size()) *
-                                        (ReferenceRenderer::weight(settings) + weight_of_methods(settings))) {
-    require_pictures(frame_size(loaded(), settings.view.size), images_at_once(settings));
-    if (context.finished != nullptr) run = fingerprint();
-  }
-
-  Workbench& workbench() {
-    if (!bench) {
-      if (context.finished != nullptr) context.finished->require_more_allowed(settings.scene);
-      auto prepared = context.shared != nullptr ? context.shared->scene
-                                                : std::make_shared<PreparedScene>(std::move(scene), settings);
-      bench = std::make_unique<Workbench>(std::move(prepared), settings, folder, staging, progress,
-                                          context.shared != nullptr ? &context.shared->references : nullptr,
-                                          context.gpu_compiler);
-    }
-    return *bench;
+// The scene of a run and its views; with the first image what draws them, because a run whose views are all finished
+// needs no OpenGL.
+class Workbench {
+ public:
+  Workbench(const RunSettings& settings, const CompareContext& context, Progress progress)
+      : settings_(settings),
+        context_(context),
+        progress_(std::move(progress)),
+        scene_(context.shared != nullptr ? Scene{} : scene_for_path(settings, scene_of_run(settings))),
+        views_(plan_views(settings, scene())) {
+    require_pictures(frame_size(scene(), settings.view.size), images_at_once(settings));
   }
 
   // As it was loaded, or as the stage has it.
-  [[nodiscard]] const Scene& loaded() const {
-    if (bench) return bench->stage.scene();
-    return context.shared != nullptr ? context.shared->scene->scene : scene;
+  [[nodiscard]] const Scene& scene() const {
+    if (tools_) return tools_->stage.scene();
+    return context_.shared != nullptr ? context_.shared->scene->scene : scene_;
   }
 
-  template <class T>
-  [[nodiscard]] std::optional<T> find(const std::string& part) const {
-    if (context.finished == nullptr) return {};
-    return context.finished->find<T>(run + "/" + part, folder);
-  }
-  template <class T>
-  void store(const std::string& part, const T& value, const std::vector<std::string>& files = {}) const {
-    if (context.finished == nullptr) return;
-    folder.attempt(part, [&] { context.finished->store(run + "/" + part, value, folder.path(), files); });
-  }
+  [[nodiscard]] const std::vector<PlannedView>& views() const { return views_; }
 
-  // The times that other processes took in a view; they take those of all views at once.
-  [[nodiscard]] std::vector<DistanceTimes> further_times(std::size_t view) {
-    if (!further) further = context.further_times ? context.further_times() : std::vector<FrameTimes>{};
-    std::vector<DistanceTimes> own;
-    for (const FrameTimes& process : *further) own.push_back(process.at(view));
-    return own;
+  Tools& tools() {
+    if (tools_) return *tools_;
+    if (context_.finished != nullptr) context_.finished->require_more_allowed(settings_.scene);
+    auto prepared = context_.shared != nullptr ? context_.shared->scene
+                                               : std::make_shared<PreparedScene>(std::move(scene_), settings_);
+    tools_ = std::make_unique<Tools>(std::move(prepared), settings_, views_, context_.gpu_compiler, progress_);
+    return *tools_;
   }
 
-  [[nodiscard]] std::string fingerprint() const {
-    SharedWork* const shared = context.shared;
-    const std::string content = shared != nullptr ? shared->content : scene_content(loaded());
-    std::vector<std::string> more;
-    if (shared != nullptr && !shared->first.empty()) more.push_back(shared->first);
-    std::string own = run_fingerprint(context.finished->maker(), settings, loaded(), content, more);
-    if (shared != nullptr && shared->first.empty()) shared->first = own;
-    return own;
-  }
-
-  const RunSettings& settings;
-  RunFolder folder;
-  const CompareContext& context;
-  ProgressParts whole;
-  Progress staging;
-  std::unique_ptr<Workbench> bench;
-  Scene scene;  // until the workbench takes it; empty if scenes are shared
-  std::vector<RunView> views;
-  ProgressParts progress;
-  std::string run;  // fingerprint, if work is stored
-  std::optional<std::vector<FrameTimes>> further{};
-};
-
-// The frame before, against which flicker is measured.
-struct FrameBefore {
-  ReferenceView target;
-  std::vector<Image> images{};  // of each method; empty: it failed
+ private:
+  const RunSettings& settings_;
+  const CompareContext& context_;
+  Progress progress_;  // of staging
+  std::unique_ptr<Tools> tools_;
+  Scene scene_;  // until the tools take it; empty if scenes are shared
+  std::vector<PlannedView> views_;
 };
 
 // ---- finished views
 
-std::string part_name(const Job& job, std::size_t i) {
-  return is_animation(job.settings) ? frame_name(i) : fmt::format("distance_{}", job.views[i].distance);
+KeptParts kept_parts(const RunSettings& settings, const Scene& scene, const RunFolder& folder,
+                     const CompareContext& context) {
+  if (context.finished == nullptr) return {nullptr, "", folder};
+  SharedWork* const shared = context.shared;
+  const std::string content = shared != nullptr ? shared->content : scene_content(scene);
+  std::vector<std::string> more;
+  if (shared != nullptr && !shared->first.empty()) more.push_back(shared->first);
+  std::string run = run_fingerprint(context.finished->maker(), settings, scene, content, more);
+  if (shared != nullptr && shared->first.empty()) shared->first = run;
+  return {context.finished, std::move(run), folder};
 }
 
-// An animation has no images but those of its frames.
-std::vector<std::string> files_of(const RunSettings& settings, const DistanceResult& result) {
-  std::vector<std::string> files;
-  const auto add = [&](const std::string& exr) {
-    std::ranges::move(page_picture_files(exr), std::back_inserter(files));
-  };
-  add(result.reference);
-  for (const Record& record : result.records) {
-    if (!record.failure) add(record.images.color);
-  }
-  if (is_animation(settings)) return files;
-  const RecordImages& shared = result.records.front().images;
-  files.insert(files.end(), {shared.standard_error, shared.interior,
-                             std::filesystem::path(shared.interior).replace_extension(".png").string()});
-  for (const MethodPair& pair : result.pairs) files.push_back(pair.picture);
-  return files;
+std::string part_name(const PlannedView& place) {
+  return place.kind == RunKind::animation ? frame_name(place.index) : fmt::format("distance_{}", place.at.distance);
 }
+
+bool has_failure(const Record& record) {
+  return record.failure || std::ranges::any_of(record.gpu_costs, [](const GpuCost& cost) { return !!cost.failure; });
+}
+
+// A view in which a method or an estimate failed is measured again, unless everything must be there.
+std::optional<DistanceResult> finished_view(const KeptParts& kept, const PlannedView& place, std::size_t methods) {
+  auto result = kept.find<DistanceResult>(part_name(place));
+  if (!result || result->records.size() != methods) return {};
+  if (!kept.is_complete() && std::ranges::any_of(result->records, has_failure)) return {};
+  for (Record& record : result->records) record.frame = static_cast<int>(place.index);
+  return result;
+}
+
+// ---- one view
 
 std::vector<std::uint32_t> set_pixels(const Image& mask) {
   std::vector<std::uint32_t> pixels;
@@ -165,197 +134,165 @@ std::vector<std::uint32_t> set_pixels(const Image& mask) {
   return pixels;
 }
 
-// A view in which a method or an estimate failed is measured again, unless everything must be there.
-std::optional<DistanceResult> finished_view(const Job& job, std::size_t i) {
-  auto result = job.find<DistanceResult>(part_name(job, i));
-  if (!result || result->records.size() != job.settings.methods.size()) return {};
-  const bool any_failed = std::ranges::any_of(result->records, [](const Record& record) {
-    return record.failure || std::ranges::any_of(record.gpu_costs, [](const GpuCost& cost) { return !!cost.failure; });
-  });
-  if (any_failed && !job.context.finished->is_complete()) return {};
-  for (Record& record : result->records) record.frame = static_cast<int>(i);
-  if (result->work.wanted_noise && job.context.shared != nullptr)
-    job.context.shared->references.wanted_noise.emplace(job.views[i], *result->work.wanted_noise);
-  return result;
+DistanceResult result_of(const Reference& reference, const MeasuredView& measured, const Exposure& exposure) {
+  return {.distance = reference.place.at.distance,
+          .exposure = exposure,
+          .work = {reference.wanted_noise, relative_standard_error(reference.reference), reference.samples,
+                   reference.seconds},
+          .reference = measured.records.front().images.reference,
+          .unresolved = set_pixels(reference.unresolved),
+          .largest_error = measured.largest_error,
+          .records = measured.records,
+          .curve = reference.curve,
+          .warnings = reference.warnings};
 }
 
-// ---- one method
-
-Image finest_level(Job& job, const ReferenceView& target, const StagedMethod& staged, const std::string& prefix) {
-  const ReferenceSettings& reference = job.settings.reference;
-  Image finest = finest_mean(job.workbench().stage.finest_level(staged), target.view, reference,
-                             job.progress.next(finest_samples(reference), prefix + "finest level, "));
-  if (target.first.texels.empty()) return finest;
-  return as_converged(finest, target.first, target.reference.mean);
-}
-
-Image measure_method(Job& job, const ReferenceView& target, const StagedMethod& staged, std::size_t index,
-                     float exposure, Record& record) {
-  Workbench& bench = job.workbench();
-  const std::string& text = job.settings.methods[index].text;
-  const std::string prefix = fmt::format("{}: {}, ", view_words(job.settings, target.index, target.at), text);
-  Image frame = bench.frames.render(index, job.views, target.index, target.view);
-  std::optional<Image> finest;
-  if (job.settings.reference.by_cause) finest = finest_level(job, target, staged, prefix);
-  bench.stage.context().check("rendering " + text);
-  record = bench.measurer.measure(staged, frame, finest, target, exposure);
-  const std::string stem = view_stem(job.settings, target.index, target.at, method_stem(job.settings.methods, index));
-  record.images.color = write_page_picture(job.folder, stem, frame, exposure);
-  if (!is_animation(job.settings)) {
-    bench.measurer.count_work(record, staged, target.view);
-    if (bench.gpu_costs) record.gpu_costs = bench.gpu_costs->costs(staged, target.view, no_progress).gpus;
-  }
-  return frame;
-}
-
-// The same, or a record that says why the method failed. Errors: an animation has no frame without all its methods.
-Image measure_or_fail(Job& job, const ReferenceView& target, std::size_t index, float exposure, Record& record) {
-  Workbench& bench = job.workbench();
-  const StagedMethod& staged = bench.stage.methods()[index];
-  Image image;
-  std::optional<Error> failure = staged.refusal();
-  if (!failure)
-    failure = failure_of(bench.stage.context(), job.settings.methods[index],
-                         [&] { image = measure_method(job, target, staged, index, exposure, record); });
-  if (!failure) return image;
-  if (is_animation(job.settings)) throw *failure;
-  record = bench.measurer.failed(staged, target, *failure);
-  return {};
-}
-
-// ---- one view
-
-// Records with nothing but the errors that the reference's noise alone causes.
-std::vector<Record> noise_records(const RunSettings& settings, const ReferenceView& target) {
-  Record record;
-  record.distance = target.at.distance;
-  record.frame = static_cast<int>(target.index);
-  RecordError& error = record.error.emplace();
-  error.noise_floor = target.noise_floor;
-  error.causes.shading_floor = target.shading_floor;
-  if (target.shading_floor) error.causes.shading = 0.0;
-  for (const OtherReferenceImage& other : target.others)
-    record.other_references.push_back({.spp = other.spp, .normalized_color = 0, .noise_floor = other.noise_floor});
-  std::vector<Record> records(settings.methods.size(), record);
-  for (std::size_t m = 0; m < records.size(); ++m) records[m].method = settings.methods[m].text;
-  return records;
-}
-
-DistanceTimes time_view(Job& job, std::size_t i) {
-  const RunSettings& settings = job.settings;
-  const double weight = static_cast<double>(settings.methods.size()) * settings.timing.repeats;
-  Stage& stage = job.workbench().stage;
-  return time_methods(stage, stage.move_to(job.views[i]), settings,
-                      job.progress.next(weight, view_words(settings, i, job.views[i]) + ": "));
-}
-
-// The frame before again. finished: its images are read from there; null: they are rendered.
-FrameBefore frame_again(Job& job, std::size_t index, float exposure, const DistanceResult* finished) {
-  Workbench& bench = job.workbench();
-  FrameBefore before{.target = bench.references.render(index, job.views[index], exposure)};
-  for (std::size_t m = 0; m < job.settings.methods.size(); ++m) {
-    Image& image = before.images.emplace_back();
-    const StagedMethod& staged = bench.stage.methods()[m];
-    if (finished != nullptr) {
-      const Record& record = finished->records[m];
-      if (!record.failure) image = read_image(job.folder / record.images.color, Transfer::linear);
-    } else if (!staged.refusal()) {
-      // A failure shows again where the method is measured.
-      (void)failure_of(bench.stage.context(), job.settings.methods[m],
-                       [&] { image = bench.frames.render(m, job.views, index, before.target.view); });
-    }
-  }
-  return before;
-}
-
-void add_flicker(std::vector<Record>& records, const FrameBefore& before, const std::vector<Image>& images,
-                 const ReferenceView& target, float exposure) {
-  for (std::size_t m = 0; m < records.size(); ++m) {
-    if (images[m].texels.empty() || before.images[m].texels.empty()) continue;
-    std::optional<Flicker>& flicker = records[m].flicker;
-    flicker = flicker_between(before.images[m], images[m], before.target.reference, target.reference, exposure);
-    if (!flicker) continue;
-    flicker->causes = flicker_causes(before.images[m], images[m], before.target, target, exposure);
-    if (records[m].history) flicker->causes.filter = flicker->causes.method = {};  // it has no footprint filter
-  }
-}
-
-// The largest error of the images, and every two of them compared.
-void compare_methods(Job& job, DistanceResult& result, const std::vector<Image>& images, const ReferenceView& target) {
-  const float exposure = result.exposure.factor;
-  std::vector<std::string> names;
-  for (std::size_t m = 0; m < images.size(); ++m) {
-    names.push_back(method_stem(job.settings.methods, m));
-    if (images[m].texels.empty()) continue;
-    const Image error = error_map(images[m], target.reference.mean, exposure);
-    result.largest_error = std::max(result.largest_error, error_percentile(error));
-  }
-  result.pairs = compare_pairs(job.folder, result.records, images, names, target, exposure);
-}
-
-// Everything but the times. On a path `before` becomes this frame.
-DistanceResult measure_images(Job& job, std::size_t i, const Exposure& exposure, std::optional<FrameBefore>& before) {
-  const RunSettings& settings = job.settings;
-  ReferenceView target = job.workbench().references.find(i, job.views[i], exposure.factor);
-  if (job.context.watch) job.context.watch(noise_records(settings, target));
-  DistanceResult result{
-      .distance = target.at.distance,
-      .exposure = exposure,
-      .work = {target.wanted_noise, relative_standard_error(target.reference), target.samples, target.seconds},
-      .reference = target.files.reference,
-      .unresolved = set_pixels(target.unresolved),
-      .records = std::vector<Record>(settings.methods.size()),
-      .curve = target.curve,
-      .warnings = target.warnings};
+std::vector<Image> read_methods(const RunFolder& folder, const std::vector<Record>& records) {
   std::vector<Image> images;
-  for (std::size_t m = 0; m < settings.methods.size(); ++m)
-    images.push_back(measure_or_fail(job, target, m, exposure.factor, result.records[m]));
-  if (!is_animation(settings)) compare_methods(job, result, images, target);
-  if (settings.view.zoom.frames == 0) return result;
-  if (before) add_flicker(result.records, *before, images, target, exposure.factor);
-  before = FrameBefore{.target = std::move(target), .images = std::move(images)};
-  return result;
+  for (const Record& record : records)
+    images.push_back(record.failure ? Image{} : read_image(folder / record.images.color, Transfer::linear));
+  return images;
 }
 
-Exposure exposure_of(Job& job) {
-  const std::optional<Exposure>& given = job.settings.view.exposure;
-  if (given || job.loaded().exposure) return choose_exposure(given, job.loaded(), {});
-  return choose_exposure({}, job.loaded(), job.workbench().references.first_samples(job.views.front()));
-}
-
-class Views {
+// The times of all processes at one distance. The others take theirs of all distances at once.
+class ProcessTimes {
  public:
-  explicit Views(Job& job) : job_(job) {}
+  explicit ProcessTimes(FurtherTimes further) : further_(std::move(further)) {}
 
-  DistanceResult next(std::size_t i) {
-    if (auto finished = finished_view(job_, i)) {
-      exposure_ = finished->exposure;
-      if (job_.context.watch) job_.context.watch(finished->records);
-      last_ = {i, *finished};
-      return std::move(*finished);
-    }
-    if (!exposure_) exposure_ = exposure_of(job_);
-    if (i > 0 && job_.settings.view.zoom.frames > 0 && (!before_ || before_->target.index + 1 != i)) {
-      const bool is_finished = last_ && last_->first + 1 == i;
-      before_ = frame_again(job_, i - 1, exposure_->factor, is_finished ? &last_->second : nullptr);
-    }
-    DistanceResult result = measure_images(job_, i, *exposure_, before_);
-    if (job_.context.watch) job_.context.watch(result.records);
-    if (is_animation(job_.settings)) {
-      for (Record& record : result.records) set_no_times(record);
-    } else {
-      std::vector<DistanceTimes> times = job_.further_times(i);
-      times.push_back(time_view(job_, i));
-      result.processes = static_cast<int>(times.size());
-      set_times(result.records, job_.workbench().stage, times);
-    }
-    job_.store(part_name(job_, i), result, files_of(job_.settings, result));
-    last_ = {i, result};
+  [[nodiscard]] std::vector<DistanceTimes> of_others(std::size_t view) {
+    if (!all_) all_ = further_ ? further_() : std::vector<FrameTimes>{};
+    std::vector<DistanceTimes> times;
+    for (const FrameTimes& process : *all_) times.push_back(process.at(view));
+    return times;
+  }
+
+ private:
+  FurtherTimes further_;
+  std::optional<std::vector<FrameTimes>> all_;
+};
+
+double times_weight(const RunSettings& settings) {
+  return static_cast<double>(settings.methods.size()) * settings.timing.repeats;
+}
+
+double view_weight(const RunSettings& settings) {
+  return reference_weight(settings.reference) + methods_weight(settings.methods.size(), settings.reference) +
+         times_weight(settings);
+}
+
+DistanceTimes time_view(Tools& tools, const PlannedView& place, int repeats, const Progress& progress) {
+  return time_methods(tools.stage, tools.stage.move_to(place.at), repeats, progress);
+}
+
+// The views of a run, each measured or read back. The first one decides the exposure, and each leaves its images for
+// the flicker of the next.
+class ViewSequence {
+ public:
+  ViewSequence(const RunSettings& settings, const CompareContext& context, Workbench& bench, const KeptParts& kept,
+               RunFolder folder, const Progress& progress)
+      : settings_(settings),
+        context_(context),
+        bench_(bench),
+        kept_(kept),
+        folder_(std::move(folder)),
+        progress_(progress, static_cast<double>(bench.views().size()) * view_weight(settings) + settings.reference.spp),
+        references_(context.shared != nullptr ? context.shared->references : own_references_),
+        times_(context.further_times) {}
+
+  DistanceResult next(const PlannedView& place) {
+    auto finished = finished_view(kept_, place, settings_.methods.size());
+    DistanceResult result = finished ? taken(place, *std::move(finished)) : measured(place);
+    last_ = {place.index, result};
     return result;
   }
 
  private:
-  Job& job_;
+  DistanceResult taken(const PlannedView& place, DistanceResult result) {
+    exposure_ = result.exposure;
+    if (result.work.wanted_noise && context_.shared != nullptr)
+      references_.wanted_noise.emplace(place.at, *result.work.wanted_noise);
+    watch(result.records);
+    return result;
+  }
+
+  DistanceResult measured(const PlannedView& place) {
+    const Exposure exposure = run_exposure();
+    Tools& tools = bench_.tools();
+    ProgressParts parts(progress_.next(view_weight(settings_), ""), view_weight(settings_));
+    find_frame_before(place);
+    Reference reference = render_reference(tools.stage, tools.reference, place, wanted(), references_,
+                                           parts.next(reference_weight(settings_.reference), ""));
+    own_references_ = {};
+    watch(noise_records(texts_of(settings_.methods), reference));
+    const MethodsWanted of_methods{.reference = settings_.reference, .exposure = exposure.factor};
+    MeasuredView view = measure_view(tools.stage, tools.methods, reference, of_methods,
+                                     parts.next(methods_weight(settings_.methods.size(), settings_.reference), ""));
+    write_view(folder_, settings_.methods, reference, exposure.factor, view);
+    if (before_) add_flicker(view.records, *before_, view.images, reference, exposure.factor);
+    DistanceResult result = result_of(reference, view, exposure);
+    if (place.kind != RunKind::animation)
+      result.pairs = write_pairs(folder_, settings_.methods, view, reference, exposure.factor);
+    if (place.kind != RunKind::comparison)
+      before_ = FrameBefore{.reference = std::move(reference), .images = std::move(view.images)};
+    watch(result.records);
+    set_all_times(place, result, parts.next(times_weight(settings_), place.words() + ": "));
+    kept_.store(part_name(place), result, files_of_view(result));
+    return result;
+  }
+
+  // The given exposure, else the scene's own, else the automatic one of the first view.
+  Exposure run_exposure() {
+    if (exposure_) return *exposure_;
+    const std::optional<Exposure>& given = settings_.view.exposure;
+    Image first;
+    if (!given && !bench_.scene().exposure)
+      first = begin_reference(bench_.tools().stage, bench_.views().front(), settings_.reference, references_,
+                              progress_.next(settings_.reference.spp, ""))
+                  .begun;
+    exposure_ = choose_exposure(given, bench_.scene(), first);
+    return *exposure_;
+  }
+
+  [[nodiscard]] ReferenceWanted wanted() const {
+    return {.settings = settings_.reference, .by_material = settings_.by_material, .exposure = exposure_->factor};
+  }
+
+  // On a path: the view before, unless it is there. Its images are read where it was finished, or else rendered again.
+  void find_frame_before(const PlannedView& place) {
+    if (place.kind == RunKind::comparison || place.index == 0) return;
+    if (before_ && before_->reference.place.index + 1 == place.index) return;
+    Tools& tools = bench_.tools();
+    before_ = FrameBefore{.reference = render_reference(tools.stage, tools.reference, bench_.views()[place.index - 1],
+                                                        wanted().for_flicker(), references_, progress_.next(0.0, ""))};
+    const bool is_finished = last_ && last_->first + 1 == place.index;
+    before_->images = is_finished ? read_methods(folder_, last_->second.records)
+                                  : render_methods(tools.stage, tools.methods, before_->reference);
+  }
+
+  void set_all_times(const PlannedView& place, DistanceResult& result, const Progress& progress) {
+    if (place.kind == RunKind::animation) {
+      std::ranges::for_each(result.records, set_no_times);
+      return;
+    }
+    std::vector<DistanceTimes> times = times_.of_others(place.index);
+    times.push_back(time_view(bench_.tools(), place, settings_.timing.repeats, progress));
+    result.processes = static_cast<int>(times.size());
+    set_times(result.records, bench_.tools().stage, times);
+  }
+
+  void watch(std::span<const Record> records) const {
+    if (context_.watch) context_.watch(records);
+  }
+
+  const RunSettings& settings_;
+  const CompareContext& context_;
+  Workbench& bench_;
+  const KeptParts& kept_;
+  RunFolder folder_;
+  ProgressParts progress_;
+  SharedReferences own_references_;  // of the view that is measured, if nothing is shared
+  SharedReferences& references_;
+  ProcessTimes times_;
   std::optional<Exposure> exposure_;
   std::optional<FrameBefore> before_;                             // on a path
   std::optional<std::pair<std::size_t, DistanceResult>> last_{};  // the view before, with its index
@@ -375,7 +312,7 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
 }
 
 std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& scene) {
-  if (!is_animation(settings)) return {};
+  if (kind_of(settings) != RunKind::animation) return {};
   AnimationWay way{.path = std::string(word_for(animation_paths, *settings.path.kind))};
   if (settings.path.kind != AnimationPath::orbit && settings.path.kind != AnimationPath::light) return way;
   const glm::dvec3 axis = turning_axis(settings.path, scene);
@@ -393,67 +330,76 @@ ReferenceInfo reference_of(const RunSettings& settings, const EffectSet& effects
   return info;
 }
 
-ComparisonHead head_of(Job& job) {
-  if (auto finished = job.find<ComparisonHead>("head")) return std::move(*finished);
-  const Stage& stage = job.workbench().stage;
-  const RunSettings& settings = job.settings;
+ComparisonHead head_of(const Tools& tools, const RunSettings& settings) {
+  const Stage& stage = tools.stage;
   ComparisonHead head{.results = {},
                       .frames = static_cast<std::size_t>(settings.view.zoom.frames),
                       .error_scale = settings.view.error_scale};
   head.results.backend = backend_info(stage.context().info());
   head.results.scene = stage.info();
   head.results.reference = reference_of(settings, stage.effects());
-  head.results.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, job.loaded()));
+  head.results.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, stage.scene()));
   head.results.timing.frames = settings.timing.repeats;
   head.results.way = way_of(settings, stage.scene());
-  std::ranges::copy(job.workbench().references.warnings(), std::back_inserter(head.results.scene.warnings));
+  std::ranges::copy(tools.reference.warnings, std::back_inserter(head.results.scene.warnings));
   const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
   if (left_out.any())
     head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as requested: {}",
                                              fmt::join(effect_names(left_out), ", ")));
   add_precompute_notes(stage, settings.methods.size(), head.last_warnings);
-  job.store("head", head);
   return head;
+}
+
+ComparisonHead kept_head(const KeptParts& kept, Workbench& bench, const RunSettings& settings) {
+  return kept.kept("head", [&] { return head_of(bench.tools(), settings); });
 }
 
 }  // namespace
 
 FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
   const CompareContext context;
-  Job job(settings, std::filesystem::path(), progress, context);
+  ProgressParts parts(progress, 4);
+  Workbench bench(settings, context, parts.next(1, ""));
+  ProgressParts of_views(parts.next(3, ""), static_cast<double>(bench.views().size()));
   FrameTimes all;
-  for (std::size_t i = 0; i < job.views.size(); ++i) all.push_back(time_view(job, i));
+  for (const PlannedView& view : bench.views())
+    all.push_back(time_view(bench.tools(), view, settings.timing.repeats, of_views.next(1, view.words() + ": ")));
   return all;
 }
 
 Results run_compare(const RunSettings& settings, const RunFolder& folder, const Progress& progress,
                     const CompareContext& context) {
-  Job job(settings, folder, progress, context);
+  ProgressParts parts(progress, 4);
+  Workbench bench(settings, context, parts.next(1, ""));
+  const KeptParts kept = kept_parts(settings, bench.scene(), folder, context);
   std::filesystem::create_directories(folder / "images");
-  Views views(job);
+  ViewSequence views(settings, context, bench, kept, folder, parts.next(3, ""));
   std::vector<DistanceResult> done;
-  for (std::size_t i = 0; i < job.views.size(); ++i) {
-    done.push_back(views.next(i));
-    if (is_animation(settings)) continue;
+  for (const PlannedView& view : bench.views()) {
+    done.push_back(views.next(view));
+    if (view.kind == RunKind::animation) continue;
     write_error_images(folder, done.back(), error_scale(done.back().largest_error, settings.view.error_scale));
-    if (context.so_far && i + 1 < job.views.size()) context.so_far(results_of(head_of(job), done));
+    if (context.so_far && view.index + 1 < view.count)
+      context.so_far(results_of(kept_head(kept, bench, settings), done));
   }
-  const Results own_scales = results_of(head_of(job), done);
+  const Results own_scales = results_of(kept_head(kept, bench, settings), done);
   for (std::size_t i = 0; i < own_scales.error_scales.size(); ++i) {
     if (own_scales.error_scales[i].error != own_scales.error_scale)
       write_shared_error_images(folder, done[i], own_scales.error_scale);
   }
-  return results_of(head_of(job), done);
+  return results_of(kept_head(kept, bench, settings), done);
 }
 
 std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views, const RunFolder& folder,
                           const Progress& progress, const CompareContext& context) {
-  Job job(settings, folder, progress, context);
+  ProgressParts parts(progress, 4);
+  Workbench bench(settings, context, parts.next(1, ""));
+  const KeptParts kept = kept_parts(settings, bench.scene(), folder, context);
   std::filesystem::create_directories(folder / "images");
-  Views measured(job);
-  for (const std::size_t i : views) (void)measured.next(i);
-  (void)head_of(job);
-  return job.run;
+  ViewSequence measured(settings, context, bench, kept, folder, parts.next(3, ""));
+  for (const std::size_t i : views) (void)measured.next(bench.views()[i]);
+  (void)kept_head(kept, bench, settings);
+  return kept.run();
 }
 
 }  // namespace footprint

@@ -12,7 +12,7 @@
 #include "experiments/studies/finished_work.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/gpu_cost.hpp"
-#include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/reference.hpp"
 #include "experiments/studies/stage.hpp"
 #include "renderer/core/progress.hpp"
 #include "renderer/core/run_folder.hpp"

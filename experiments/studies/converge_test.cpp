@@ -1,5 +1,5 @@
 // Which tiles of a reference go on, and what they come to.
-#include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/reference_noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 // Errors by cause on pictures of a few pixels, and which parts of a picture an exact sum is afforded for.
-#include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/bound.hpp"
+#include "experiments/studies/flicker.hpp"
+#include "experiments/studies/pixel_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -180,8 +182,8 @@ TEST(CheapParts, LieWhereThePictureHasThem) {
   EXPECT_EQ(pixel_count(within(parts.interior, tiles)), 1024U);
 }
 
-ReferenceView view_of(const Image& reference, const Interior& interior) {
-  ReferenceView view;
+Reference view_of(const Image& reference, const Interior& interior) {
+  Reference view;
   view.reference.mean = reference;
   view.parts = pixel_parts(reference, interior);
   return view;
@@ -195,7 +197,7 @@ TEST(FlickerCauses, AreSeparatedByPixels) {
     for (int c = 0; c < 3; ++c)
       picture.at(1, y)[static_cast<std::size_t>(c)] = 1.0F - before.at(1, y)[static_cast<std::size_t>(c)];
   }
-  const ReferenceView view = view_of(reference, stripes(4));
+  const Reference view = view_of(reference, stripes(4));
   const FlickerCauses causes = flicker_causes(before, picture, view, view, 1.0F);
   EXPECT_EQ(causes.shading->mean, 0.0);
   EXPECT_GT(causes.edges->mean, 0.05);
@@ -206,7 +208,7 @@ TEST(FlickerCauses, AreSeparatedByPixels) {
 // A pixel that is interior in one frame alone is an edge.
 TEST(FlickerCauses, AnInteriorPixelIsOneInBothFrames) {
   const Image reference = noise(4, 1);
-  const ReferenceView striped = view_of(reference, stripes(4)), none = view_of(reference, everywhere(4, 0.0F));
+  const Reference striped = view_of(reference, stripes(4)), none = view_of(reference, everywhere(4, 0.0F));
   const FlickerCauses causes = flicker_causes(reference, reference, striped, none, 1.0F);
   EXPECT_FALSE(causes.shading);
   EXPECT_EQ(causes.edges->mean, 0.0);
@@ -218,7 +220,7 @@ TEST(FlickerCauses, FilterAndMethodAreSeparatedByTheBound) {
   const Image old_reference = noise(4, 1), reference = noise(4, 2);
   const Image old_bound = noise(4, 3), bound = noise(4, 4);
   const Image all(4, 4, 1, 1.0F);
-  ReferenceView before = view_of(old_reference, everywhere(4, 1.0F)), now = view_of(reference, everywhere(4, 1.0F));
+  Reference before = view_of(old_reference, everywhere(4, 1.0F)), now = view_of(reference, everywhere(4, 1.0F));
   before.bound = BoundPicture{.picture = old_bound, .pixels = all};
   now.bound = BoundPicture{.picture = bound, .pixels = all};
   const FlickerCauses same = flicker_causes(old_bound, bound, before, now, 1.0F);

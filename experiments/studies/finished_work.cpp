@@ -78,8 +78,9 @@ void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene
   const auto& [kind, degrees, axis, until] = settings.path;
   const glm::ivec2 pixels = frame_size(scene, size);
   const glm::dvec3 turned = axis.value_or(glm::dvec3(0.0));
-  const std::vector<RunView> all = run_views(settings, scene);
-  for (const RunView& view : std::span(all).first(zoom.frames > 0 ? all.size() : 1)) add(hash, view);
+  const std::vector<PlannedView> all = plan_views(settings, scene);
+  const bool depends_on_path = kind_of(settings) != RunKind::comparison;
+  for (const PlannedView& view : std::span(all).first(depends_on_path ? all.size() : 1)) add(hash, view.at);
   add(hash, std::tuple(pixels.x, pixels.y, exposure, zoom.frames, error_scale));
   add(hash, std::tuple(kind, degrees, until, turned.x, turned.y, turned.z));
 }

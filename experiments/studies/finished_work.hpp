@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
@@ -91,6 +92,50 @@ class FinishedWork {
   bool complete_;
   mutable std::set<std::string> used_;  // what a run has found or stored is a log, not a part of the folder's value
   mutable std::size_t reused_ = 0;
+};
+
+/// The finished parts of one run.
+class KeptParts {
+ public:
+  /// work: null: nothing is found, and nothing is stored.
+  /// run: its fingerprint.
+  /// folder: of the output, where the files of parts are.
+  KeptParts(const FinishedWork* work, std::string run, RunFolder folder)
+      : work_(work), run_(std::move(run)), folder_(std::move(folder)) {}
+
+  /// As FinishedWork::find.
+  template <class T>
+  [[nodiscard]] std::optional<T> find(const std::string& part) const {
+    if (work_ == nullptr) return {};
+    return work_->find<T>(key_of(part), folder_);
+  }
+
+  /// As FinishedWork::store; a part that cannot be stored is a loss of the folder.
+  template <class T>
+  void store(const std::string& part, const T& value, const std::vector<std::string>& files = {}) const {
+    if (work_ != nullptr) folder_.attempt(part, [&] { work_->store(key_of(part), value, folder_.path(), files); });
+  }
+
+  /// Returns the part, or else what `make()` returns, which it stores.
+  template <class Make>
+  [[nodiscard]] auto kept(const std::string& part, Make make) const {
+    using T = decltype(make());
+    if (auto found = find<T>(part)) return *std::move(found);
+    T made = make();
+    store(part, made);
+    return made;
+  }
+
+  [[nodiscard]] const std::string& run() const { return run_; }
+  /// Whether all parts must be there.
+  [[nodiscard]] bool is_complete() const { return work_ != nullptr && work_->is_complete(); }
+
+ private:
+  [[nodiscard]] std::string key_of(const std::string& part) const { return run_ + "/" + part; }
+
+  const FinishedWork* work_;
+  std::string run_;
+  RunFolder folder_;
 };
 
 /// The program and the renderer of an OpenGL context, for example "llvmpipe (LLVM 15.0.6, 256 bits)": images of another

@@ -12,7 +12,7 @@
 #include <memory>
 #include <set>
 
-#include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/reference.hpp"
 #include "experiments/studies/view_path.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/metrics.hpp"
@@ -150,8 +150,7 @@ DrawFrame next_frame(const StagedMethod& staged, const View& view) {
   };
 }
 
-DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,
-                           const Progress& progress) {
+DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress) {
   std::vector<DrawFrame> draws;
   for (const StagedMethod& staged : stage.methods()) draws.push_back(next_frame(staged, view));
   for (const StagedMethod& staged : stage.methods()) {
@@ -162,7 +161,7 @@ DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettin
     const std::span<const std::vector<double>> frames = std::span(times).first(stage.methods().size());
     return std::ranges::all_of(frames, [&](const auto& own) { return is_ratio_known(own, times[stage.unit()]); });
   };
-  return interleaved_times(stage.context().info(), draws, settings.timing.repeats, progress, is_enough);
+  return interleaved_times(stage.context().info(), draws, repeats, progress, is_enough);
 }
 
 void set_times(std::span<Record> records, const Stage& stage, std::span<const DistanceTimes> processes) {
@@ -195,8 +194,8 @@ Image image_of(const StagedMethod& method, const View& view) {
   return picture_of_history(*history, method, view);
 }
 
-MethodFrames::MethodFrames(Stage& stage, const RunSettings& settings)
-    : stage_(stage), is_path_(settings.view.zoom.frames > 0), sequences_(stage.methods().size()) {}
+MethodFrames::MethodFrames(Stage& stage, std::vector<PlannedView> views)
+    : stage_(stage), views_(std::move(views)), sequences_(stage.methods().size()) {}
 
 void MethodFrames::add_view(Sequence& sequence, const StagedMethod& method, View view) {
   if (sequence.views++ == 0) return restart(sequence.history, method, view);
@@ -204,14 +203,15 @@ void MethodFrames::add_view(Sequence& sequence, const StagedMethod& method, View
   sequence.history->add(method.frames(), view);
 }
 
-Image MethodFrames::render(std::size_t method, const std::vector<RunView>& views, std::size_t index, const View& view) {
+Image MethodFrames::render(std::size_t method, const PlannedView& place, const View& view) {
   const StagedMethod& staged = stage_.methods()[method];
-  if (!is_path_ || staged.history().frames == 0) return image_of(staged, view);
+  if (place.kind == RunKind::comparison || staged.history().frames == 0) return image_of(staged, view);
+  const std::size_t index = place.index;
   Sequence& sequence = sequences_[method];
   if (sequence.views > index) sequence.views = 0;
   const bool goes_back = sequence.views < index;
-  while (sequence.views < index) add_view(sequence, staged, stage_.move_to(views[sequence.views]));
-  add_view(sequence, staged, goes_back ? stage_.move_to(views[index]) : view);
+  while (sequence.views < index) add_view(sequence, staged, stage_.move_to(views_[sequence.views].at));
+  add_view(sequence, staged, goes_back ? stage_.move_to(place.at) : view);
   return picture_of_history(*sequence.history, staged, view);
 }
 
@@ -247,21 +247,20 @@ Image FrameMean::mean() const {
 }
 
 std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
-                                               const ReferenceView& target, float exposure, ProgressParts& progress) {
+                                               const Reference& target, float exposure, const Progress& progress) {
   if (settings.supersampling.empty() || stage.methods()[stage.unit()].refusal()) return {};
   const View& view = target.view;
-  const std::string prefix = fmt::format("distance {:g}: ", target.at.distance);
   const std::span<const int> counts = settings.supersampling;
+  ProgressParts parts(progress, curve_weight(counts));
   const std::vector<glm::dvec2> offsets = frame_offsets(most_frames(counts), settings.seed ^ curve_seed);
   const std::map<int, Image> pictures =
-      pictures_of(stage, view, counts, offsets, progress.next(most_frames(counts), prefix + "supersampling, "));
-  const std::map<int, double> ms =
-      measured_ms(stage, view, counts, offsets, progress.next(timing_weight(counts), prefix));
+      pictures_of(stage, view, counts, offsets, parts.next(most_frames(counts), "supersampling, "));
+  const std::map<int, double> ms = measured_ms(stage, view, counts, offsets, parts.next(timing_weight(counts), ""));
   std::vector<SupersamplingPoint> curve;
   for (const int spp : counts) {
     const Image& picture = pictures.at(spp);
     const int timed = timed_frames(spp);
-    curve.push_back({.distance = target.at.distance,
+    curve.push_back({.distance = target.place.at.distance,
                      .spp = spp,
                      .normalized_color = normalized_color(picture, target.reference.mean, exposure),
                      .shading = normalized_color(picture, target.reference.mean, exposure, target.parts.interior),

@@ -18,7 +18,7 @@
 
 namespace footprint {
 
-struct ReferenceView;
+struct Reference;
 
 /// Frame times of one process at one distance: [candidate][repeat], milliseconds; first the
 /// stage's methods (whole frames), then the frame builds alone of those that have one, in the same order.
@@ -31,9 +31,9 @@ using FrameTimes = std::vector<DistanceTimes>;
 /// interval of its median is narrower than 3% of it.
 [[nodiscard]] bool is_ratio_known(const std::vector<double>& times, const std::vector<double>& unit);
 
-/// Those of one distance, all candidates in turn.
-[[nodiscard]] DistanceTimes time_methods(const Stage& stage, const View& view, const RunSettings& settings,
-                                         const Progress& progress);
+/// Times all candidates at one distance, in turn.
+/// repeats: of each candidate; fewer where its ratio to the unit is known before.
+[[nodiscard]] DistanceTimes time_methods(const Stage& stage, const View& view, int repeats, const Progress& progress);
 
 /// Fills in frame times, ratios and frame builds of the records of one distance.
 /// records: one per method of the stage's settings, in their order.
@@ -47,12 +47,13 @@ void set_no_times(Record& record);
 /// Draws a stage's methods, each as the settings of its history say.
 class MethodFrames {
  public:
-  MethodFrames(Stage& stage, const RunSettings& settings);
+  /// Keeps the stage's address.
+  /// views: all of the run.
+  MethodFrames(Stage& stage, std::vector<PlannedView> views);
 
-  /// The image of a method in view `index` of a run, which the stage is at. On a path its history has all frames before
-  /// it, which are drawn again unless the last call for this method was the view before.
-  [[nodiscard]] Image render(std::size_t method, const std::vector<RunView>& views, std::size_t index,
-                             const View& view);
+  /// The image of a method in a view, which the stage is at. On a path its history has all frames before it, which are
+  /// drawn again unless the last call for this method was the view before.
+  [[nodiscard]] Image render(std::size_t method, const PlannedView& place, const View& view);
 
  private:
   // The history of a method, and the number of views on the path that it contains.
@@ -64,7 +65,7 @@ class MethodFrames {
   void add_view(Sequence& sequence, const StagedMethod& method, View view);
 
   Stage& stage_;
-  bool is_path_;
+  std::vector<PlannedView> views_;
   std::vector<Sequence> sequences_;  // of each method
 };
 
@@ -97,8 +98,8 @@ class FrameMean {
 
 /// A point for each count of frames that the settings name. The stage's first method is `direct`.
 [[nodiscard]] std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const ReferenceSettings& settings,
-                                                             const ReferenceView& target, float exposure,
-                                                             ProgressParts& progress);
+                                                             const Reference& target, float exposure,
+                                                             const Progress& progress);
 
 /// The curve's weight in progress, in samples per pixel.
 [[nodiscard]] double curve_weight(std::span<const int> counts);

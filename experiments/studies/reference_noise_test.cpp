@@ -1,5 +1,6 @@
 // Images over the same few samples, compared with one over many.
-#include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/reference_noise.hpp"
+#include "experiments/studies/flicker.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/studies/reference_view.hpp"
+#include "experiments/studies/measured_view.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 
@@ -99,17 +99,14 @@ TEST(Significance, OnlyWholePixelsAndThoseOfTheMaskCount) {
 }
 
 TEST(Significance, IsNotSaidWhereTheNoiseIsNotKnown) {
-  ReferenceView target;
+  Reference target;
   target.reference = noisy(0.5F, true);
   target.parts.interior = Image(edge, edge, 1, 1.0F);
-  const std::vector<Image> images{even(0.4F), even(0.9F)};
-  const std::vector<Record> records(2);
-  const std::vector<std::string> names{"a", "b"};
-  const std::filesystem::path folder = test::fresh_folder();
-  std::filesystem::create_directory(folder / "images");
-  EXPECT_EQ(compare_pairs(folder, records, images, names, target, 1.0F).size(), 1U);
+  const MeasuredView measured{.images = {even(0.4F), even(0.9F)}, .records = std::vector<Record>(2)};
+  const auto unseen = [](std::size_t, std::size_t, const Image&) { return std::string(); };
+  EXPECT_EQ(compare_pairs(measured, target, 1.0F, unseen).size(), 1U);
   target.reference.halves.reset();
-  EXPECT_TRUE(compare_pairs(folder, records, images, names, target, 1.0F).empty());
+  EXPECT_TRUE(compare_pairs(measured, target, 1.0F, unseen).empty());
 }
 
 // ---- the test per pixel ----
@@ -200,7 +197,7 @@ TEST(ScoreLimits, RefuseWhatTheyAreNot) {
                                                         {"share_above:2=1", "0 to 1"},
                                                         {"p99=nan", "not a number"},
                                                         {"p99=", "not a number"}}) {
-    EXPECT_NE(test::usage_error([&text = text] { return parse_score_limit(text); }).find(words), std::string::npos)
+    EXPECT_NE(test::usage_error([&given = text] { return parse_score_limit(given); }).find(words), std::string::npos)
         << text;
   }
 }

@@ -200,6 +200,10 @@ SceneInfo Stage::info() const {
   return info;
 }
 
+std::span<const StagedMethod> Stage::requested_methods() const {
+  return std::span(methods_).first(settings_.methods.size());
+}
+
 View Stage::view(double distance) const {
   return {.size = size_, .camera = camera_at_distance(scene(), distance), .seed = settings_.reference.seed};
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,7 @@ class StagedMethod {
   [[nodiscard]] const BakedMethod& baked() const { return *prepared_->baked; }
   [[nodiscard]] const GpuMethod& gpu() const { return *prepared_->gpu; }
   [[nodiscard]] const FrameRenderer& frames() const { return *frames_; }
+  [[nodiscard]] const MethodSpec& spec() const { return drawn_.spec; }
   /// As written.
   [[nodiscard]] const std::string& text() const { return drawn_.spec.text; }
   [[nodiscard]] const FootprintFilter& filter() const { return drawn_.filter; }
@@ -134,6 +136,8 @@ class Stage {
   [[nodiscard]] const GpuScene& gpu_scene() const { return *prepared_->gpu; }
   /// In the order of the settings; last a unit that they do not have themselves.
   [[nodiscard]] const std::vector<StagedMethod>& methods() const { return methods_; }
+  /// The methods of the settings, without a unit that they do not have.
+  [[nodiscard]] std::span<const StagedMethod> requested_methods() const;
   /// The place of the unit among them. Only of a stage that has one.
   [[nodiscard]] std::size_t unit() const { return unit_.value(); }
   [[nodiscard]] bool has_unit() const { return unit_.has_value(); }

@@ -106,11 +106,11 @@ TEST(Stage, AFrameOfAnAnimationIsThatOfTheScenePosedAtItsTime) {
   settings.path.kind = AnimationPath::animation;
   settings.cache.reset();
   const Scene scene = scene_of_run(settings);
-  const std::vector<RunView> views = run_views(settings, scene);
+  const std::vector<PlannedView> views = plan_views(settings, scene);
   const auto moved = [&](const std::vector<std::size_t>& frames) {
     Stage stage(scene, settings, no_progress);
     View view;
-    for (const std::size_t frame : frames) view = stage.move_to(views[frame]);
+    for (const std::size_t frame : frames) view = stage.move_to(views[frame].at);
     return stage.methods().front().frames().render(view).texels;
   };
   const auto posed = [&](double seconds) {

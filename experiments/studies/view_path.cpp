@@ -33,7 +33,7 @@ constexpr double default_turn = 60.0;  // degrees
 }
 
 void require_settings_of_its_own(const RunSettings& settings) {
-  if (!is_animation(settings)) return;
+  if (kind_of(settings) != RunKind::animation) return;
   const bool zooms = settings.path.kind == AnimationPath::zoom;
   const bool plays = settings.path.kind == AnimationPath::animation;
   if ((zooms || plays) && settings.path.degrees) refuse("--degrees", "this path does not turn");
@@ -54,6 +54,31 @@ void set_times(const RunSettings& settings, const Scene& scene, std::vector<RunV
     throw Error(ErrorKind::usage, "--until", fmt::format("the animation ends at {:g} s, where it starts", until),
                 "let --time and --until differ");
   for (RunView& view : views) view.seconds = from + (until - from) * view.frame / static_cast<double>(views.size() - 1);
+}
+
+std::vector<RunView> views_of_distances(const RunSettings& settings, const Scene& scene) {
+  std::vector<RunView> views;
+  for (const double distance : run_distances(settings.view, scene)) {
+    const std::size_t frame = kind_of(settings) == RunKind::comparison ? 0 : views.size();
+    views.push_back({.distance = distance, .frame = static_cast<std::uint32_t>(frame)});
+  }
+  return views;
+}
+
+// A path that turns, or that follows an animation.
+std::vector<RunView> views_of_path(const RunSettings& settings, const Scene& scene) {
+  if (settings.path.kind == AnimationPath::light && scene.lights.empty())
+    throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
+                "take --path orbit");
+  const int count = settings.view.zoom.frames;
+  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
+  const bool plays = settings.path.kind == AnimationPath::animation;
+  const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
+  std::vector<RunView> views;
+  for (int i = 0; i < count; ++i)
+    views.push_back({.distance = distance, .degrees = turn * i / (count - 1), .frame = static_cast<std::uint32_t>(i)});
+  if (plays) set_times(settings, scene, views);
+  return views;
 }
 
 // The turn that a path has made in a frame, about the centre of the bounds.
@@ -122,36 +147,24 @@ std::vector<double> run_distances(const ViewSettings& view, const Scene& scene) 
   return zoom_distances(from, to, zoom.frames);
 }
 
-std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene) {
+std::string PlannedView::words() const {
+  if (kind != RunKind::animation) return fmt::format("distance {:g}", at.distance);
+  return fmt::format("frame {} of {}", index + 1, count);
+}
+
+std::string PlannedView::stem(const std::string& what) const {
+  return kind == RunKind::animation ? fmt::format("{}_{:04}", what, index) : distance_stem(at.distance, what);
+}
+
+std::vector<PlannedView> plan_views(const RunSettings& settings, const Scene& scene) {
   require_settings_of_its_own(settings);
-  std::vector<RunView> views;
-  const auto add = [&](double distance, double degrees) {
-    const auto frame = static_cast<std::uint32_t>(settings.view.zoom.frames > 0 ? views.size() : 0);
-    views.push_back({.distance = distance, .degrees = degrees, .frame = frame});
-  };
-  if (settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom) {
-    for (const double distance : run_distances(settings.view, scene)) add(distance, 0.0);
-    return views;
-  }
-  if (settings.path.kind == AnimationPath::light && scene.lights.empty())
-    throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
-                "take --path orbit");
-  const int count = settings.view.zoom.frames;
-  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
-  const bool plays = settings.path.kind == AnimationPath::animation;
-  const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
-  for (int i = 0; i < count; ++i) add(distance, turn * i / (count - 1));
-  if (plays) set_times(settings, scene, views);
+  const std::vector<RunView> places = settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom
+                                          ? views_of_distances(settings, scene)
+                                          : views_of_path(settings, scene);
+  std::vector<PlannedView> views;
+  for (const RunView& at : places)
+    views.push_back({.at = at, .kind = kind_of(settings), .index = views.size(), .count = places.size()});
   return views;
-}
-
-std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view) {
-  if (!is_animation(settings)) return fmt::format("distance {:g}", view.distance);
-  return fmt::format("frame {} of {}", index + 1, settings.view.zoom.frames);
-}
-
-std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view, const std::string& what) {
-  return is_animation(settings) ? fmt::format("{}_{:04}", what, index) : distance_stem(view.distance, what);
 }
 
 glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene) {
@@ -188,8 +201,8 @@ Scene scene_of_run(const RunSettings& settings) {
   WideBounds bounds;
   bounds.add(first.bounds, first.origin);
   bool casts = false;
-  for (const RunView& view : run_views(settings, first)) {
-    const Scene posed = scene_at_time(settings, view.seconds, {});
+  for (const PlannedView& view : plan_views(settings, first)) {
+    const Scene posed = scene_at_time(settings, view.at.seconds, {});
     bounds.add(posed.bounds, posed.origin);
     casts = casts || casts_shadows(posed);
   }
@@ -202,9 +215,9 @@ Scene scene_of_run(const RunSettings& settings) {
 Scene scene_for_path(const RunSettings& settings, Scene scene) {
   if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
   Scene moved = scene;
-  const std::vector<RunView> views = run_views(settings, scene);
-  const bool casts = std::ranges::any_of(views, [&](const RunView& view) {
-    moved.lights = lights_on_path(settings.path, scene, scene.lights, view);
+  const std::vector<PlannedView> views = plan_views(settings, scene);
+  const bool casts = std::ranges::any_of(views, [&](const PlannedView& view) {
+    moved.lights = lights_on_path(settings.path, scene, scene.lights, view.at);
     return casts_shadows(moved);
   });
   if (casts) scene.shadows.cast = true;

@@ -35,20 +35,23 @@ struct RunView {
   friend auto operator<=>(const RunView&, const RunView&) = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
-/// Whether the views are the frames of an animation: only images, errors and flicker are measured.
-[[nodiscard]] inline bool is_animation(const RunSettings& settings) { return settings.path.kind.has_value(); }
+/// A view in its place among those of a run.
+struct PlannedView {
+  RunView at;
+  RunKind kind = RunKind::comparison;
+  std::size_t index = 0, count = 1;
+
+  /// In messages: "distance 4", or of an animation "frame 3 of 30".
+  [[nodiscard]] std::string words() const;
+
+  /// The file name part of something in this view: "d4_WHAT", or of an animation "WHAT_0002".
+  [[nodiscard]] std::string stem(const std::string& what) const;
+};
 
 /// The views of a run over `scene`: its distances, or as many frames of its path as the settings of its zoom say.
 /// Errors (usage): a zoom that ends where it starts; a setting that the path has no use for; lights are to move and the
 /// scene has none but an environment.
-[[nodiscard]] std::vector<RunView> run_views(const RunSettings& settings, const Scene& scene);
-
-/// A view in messages: "distance 4", or of an animation "frame 3 of 30".
-[[nodiscard]] std::string view_words(const RunSettings& settings, std::size_t index, const RunView& view);
-
-/// The file name part of something in a view: "d4_WHAT", or of an animation "WHAT_0002".
-[[nodiscard]] std::string view_stem(const RunSettings& settings, std::size_t index, const RunView& view,
-                                    const std::string& what);
+[[nodiscard]] std::vector<PlannedView> plan_views(const RunSettings& settings, const Scene& scene);
 
 /// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames and with
 /// shadows where any frame has them.

@@ -32,7 +32,7 @@ RunSettings path_of(AnimationPath kind, int frames) {
 
 std::string refusal(const RunSettings& run, const Scene& scene) {
   try {
-    (void)run_views(run, scene);
+    (void)plan_views(run, scene);
   } catch (const Error& error) {
     return error.what();
   }
@@ -44,14 +44,14 @@ TEST(RunViews, AnOrbitKeepsItsDistanceAndLooksAtTheCentre) {
   run.path.degrees = 90;
   run.view.distances = {2.0};
   const Scene scene = looked_at();
-  const std::vector<RunView> frames = run_views(run, scene);
+  const std::vector<PlannedView> frames = plan_views(run, scene);
   ASSERT_EQ(frames.size(), 3U);
-  EXPECT_EQ(frames[0].degrees, 0.0);
-  EXPECT_EQ(frames[2].degrees, 90.0);
-  const Camera last = camera_on_path(run.path, scene, frames[2]);
+  EXPECT_EQ(frames[0].at.degrees, 0.0);
+  EXPECT_EQ(frames[2].at.degrees, 90.0);
+  const Camera last = camera_on_path(run.path, scene, frames[2].at);
   EXPECT_NEAR(glm::length(glm::vec3(last.world[3]) - glm::vec3(8, 0, 1)), 0.0F, 1e-5F);
   EXPECT_NEAR(glm::length(glm::vec3(last.world[2]) - glm::vec3(1, 0, 0)), 0.0F, 1e-6F);
-  EXPECT_EQ(camera_on_path(run.path, scene, frames[0]), camera_at_distance(scene, 2.0));
+  EXPECT_EQ(camera_on_path(run.path, scene, frames[0].at), camera_at_distance(scene, 2.0));
 }
 
 TEST(RunViews, LightsTurnTogetherAndTheCameraStays) {
@@ -61,21 +61,21 @@ TEST(RunViews, LightsTurnTogetherAndTheCameraStays) {
   Scene scene = looked_at();
   scene.lights = {PointLight{.position = glm::vec3(3, 0, 7), .range = {}},
                   DirectionalLight{.direction = glm::vec3(0.6F, 0, -0.8F)}};
-  const std::vector<RunView> frames = run_views(run, scene);
-  const std::vector<Light> lights = lights_on_path(run.path, scene, scene.lights, frames[1]);
+  const std::vector<PlannedView> frames = plan_views(run, scene);
+  const std::vector<Light> lights = lights_on_path(run.path, scene, scene.lights, frames[1].at);
   EXPECT_NEAR(glm::length(std::get<PointLight>(lights[0]).position - glm::vec3(-3, 0, 7)), 0.0F, 1e-5F);
   EXPECT_NEAR(glm::length(std::get<DirectionalLight>(lights[1]).direction - glm::vec3(-0.6F, 0, -0.8F)), 0.0F, 1e-6F);
-  EXPECT_EQ(camera_on_path(run.path, scene, frames[1]), camera_at_distance(scene, 1.0));
+  EXPECT_EQ(camera_on_path(run.path, scene, frames[1].at), camera_at_distance(scene, 1.0));
 }
 
 TEST(RunViews, AZoomIsThatOfAnExperiment) {
   RunSettings run = path_of(AnimationPath::zoom, 3);
   run.view.zoom.from = 1;
   run.view.zoom.to = 4;
-  const std::vector<RunView> frames = run_views(run, looked_at());
+  const std::vector<PlannedView> frames = plan_views(run, looked_at());
   ASSERT_EQ(frames.size(), 3U);
-  EXPECT_EQ(frames[1].distance, 2.0);
-  EXPECT_EQ(lights_on_path(run.path, looked_at(), {}, frames[2]).size(), 0U);
+  EXPECT_EQ(frames[1].at.distance, 2.0);
+  EXPECT_EQ(lights_on_path(run.path, looked_at(), {}, frames[2].at).size(), 0U);
 }
 
 // The quad moves by 6 m along x until 3 s.
@@ -91,11 +91,11 @@ TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames
   RunSettings run = path_of(AnimationPath::animation, 4);
   run.scene = moving_quad();
   const Scene scene = scene_of_run(run);
-  const std::vector<RunView> frames = run_views(run, scene);
+  const std::vector<PlannedView> frames = plan_views(run, scene);
   ASSERT_EQ(frames.size(), 4U);
-  EXPECT_EQ(frames[0].seconds, 0.0);
-  EXPECT_EQ(frames[1].seconds, 1.0);
-  EXPECT_EQ(frames[3].seconds, 3.0);
+  EXPECT_EQ(frames[0].at.seconds, 0.0);
+  EXPECT_EQ(frames[1].at.seconds, 1.0);
+  EXPECT_EQ(frames[3].at.seconds, 3.0);
   EXPECT_EQ(scene.bounds.lower.x, -1.0F);
   EXPECT_EQ(scene.bounds.upper.x, 7.0F);
   const Scene later = scene_at_time(run, 1.0, PlacedBounds{scene.bounds, scene.origin});
@@ -103,9 +103,9 @@ TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames
   EXPECT_EQ(later.camera, scene.camera) << "framed on all frames";
   run.overrides.model.time = 1.0;
   run.path.until = 1.5;
-  const std::vector<RunView> part = run_views(run, scene_of_run(run));
-  EXPECT_EQ(part[0].seconds, 1.0);
-  EXPECT_EQ(part[3].seconds, 1.5);
+  const std::vector<PlannedView> part = plan_views(run, scene_of_run(run));
+  EXPECT_EQ(part[0].at.seconds, 1.0);
+  EXPECT_EQ(part[3].at.seconds, 1.5);
 }
 
 // A quad that comes to 1 m above another one, under light from straight above.

@@ -68,7 +68,7 @@ struct QuickMethod {
   std::vector<QuickFilter> filters;
 };
 
-/// The model, which scripts/quick_model fits and writes.
+/// The model, which scripts/studies/quick_model.py fits and writes.
 struct QuickModel {
   std::vector<int> texels_per_pixel;  ///< powers of two
   int scenes = 0;                     ///< that it was fitted on

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Compares prefiltering with temporal accumulation, still and in motion, and prints docs/results/temporal-study.md.
 
-  scripts/temporal_study RESULTS --run         # runs everything that RESULTS lacks, then prints the page
-  scripts/temporal_study RESULTS --run --quick # one scene, still and fast, four frames: tests the script, measures nothing
+  scripts/studies/temporal_study.py RESULTS --run         # runs everything that RESULTS lacks, then prints the page
+  scripts/studies/temporal_study.py RESULTS --run --quick # one scene, still and fast, four frames: tests the script, measures nothing
 
 A run is an animation of a scene along a path at a speed and a distance, under a footprint filter, of every method with and
 without histories. Depths of stochastic footprints and frame times have runs of their own. The results of a run are
@@ -290,7 +290,7 @@ def costs_part(study):
 
 def document(study, svg):
     scenes = sorted({scene for by_scene in study.found.values() for scene in by_scene})
-    head = (f"# Prefiltering beside temporal accumulation\n\n`scripts/temporal_study` prints this page. "
+    head = (f"# Prefiltering beside temporal accumulation\n\n`scripts/studies/temporal_study.py` prints this page. "
             f"[temporal.md](../explanation/temporal.md) has the formulas, [metrics.md](../reference/metrics.md) the measures. Scenes: "
             f"{', '.join(scenes)}; {SIZE} x {SIZE} pixels, {FRAMES} frames, references of {SPP} samples per pixel. The distance is "
             f"{DISTANCE} unless a table has texels per pixel. Histories have alpha 0.1 and 24 frames before the first one. Columns: a "

@@ -70,6 +70,7 @@ TEST(ResultsPage, CarriesTheDocumentOfResultsJson) {
   EXPECT_EQ(data.at("runs").front().at("folder"), "");
   EXPECT_EQ(data.at("runs").front().at("results"), nlohmann::json::parse(results_json(results)));
   EXPECT_EQ(data.at("runs").front().at("display").size(), results.records.size());
+  for (const Record& record : results.records) EXPECT_TRUE(data.at("color_places").contains(record.method));
   EXPECT_EQ(data.at("scale_colors").size(), 256U);
   EXPECT_NE(data.at("scale_colors").front(), data.at("scale_colors").back());
 }

@@ -423,7 +423,7 @@ def picture(study, file):
     entries = study.entries(study.distances)
     chart = LogChart([entry[:2] for entry in entries], ("frames of direct", "error of shading"),
                      ((1, 2, 4, 8, 16, 32, 64), (0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3)))
-    colours = dict(zip(["-", *study.filters], [palette()["light"][-1], *palette()["light"]]))
+    colours = dict(zip(["-", *study.filters], [palette()[-1], *palette()]))
     front = front_of(entries)
     chart.add_line([entry[:2] for entry in front], "black")
     for cost, error, name, method in entries:

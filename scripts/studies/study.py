@@ -4,6 +4,7 @@ It reads experiments and results.json, averages numbers, wraps text, draws chart
 import from here what they share with the other scripts (scripts/common.py).
 """
 import collections
+import json
 import math
 import pathlib
 import sys
@@ -75,24 +76,13 @@ def wrapped(text):
 # ---- charts
 
 def palette():
-    """The colours of all reports and figures, and the methods in the order in which they choose."""
-    return load_results(ROOT / "results/report/palette.json")
+    """The colours of all reports and figures."""
+    return load_results(ROOT / "results/report/palette.json")["light"]
 
 
-def colours_of(methods):
-    """{method: its colour}, as in all reports (colorPlaces in results/report/page.js)."""
-    colours, order = palette()["light"], palette()["methods"]
-    names = list(dict.fromkeys(order + [method.split(":")[0] for method in methods]))
-
-    def known(method):
-        return names.index(method.split(":")[0])
-
-    found, count = {}, len(colours)
-    for i, method in enumerate(sorted(methods, key=known)):
-        taken = list(found.values())[i // count * count:]
-        turned = [colours[(known(method) + turn) % count] for turn in range(count)]
-        found[method] = next(colour for colour in turned if colour not in taken)
-    return {method: found[method] for method in methods}
+def colours_of(methods, program=PROGRAM):
+    """{method: its colour}, as the program assigns them in all reports."""
+    return {method: colours["light"] for method, colours in json.loads(run_footprint("method-colors", *methods, program=program)).items()}
 
 
 class LogChart:

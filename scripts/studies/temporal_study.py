@@ -252,13 +252,13 @@ def depths_part(study, svg):
             table(["method", "depth", *depths], rows))
 
 
-def drawn_depths(study, file):
+def drawn_depths(study, file, program):
     """The chart of bias against noise: a line per method, a point per depth."""
     found = {method: {depth: v[:2] for depth, v in by_depth.items() if min(v[:2]) > 0} for method, by_depth in depths_of(study).items()}
     ticks = [v * 10 ** e for e in range(-4, 2) for v in (1, 2, 3, 4, 5, 6, 8)]
     chart = LogChart([v for by_depth in found.values() for v in by_depth.values()],
                      ("bias: relative RMSE of the mean of all draws", "noise: relative RMSE of one draw about that mean"), (ticks, ticks))
-    colours = colours_of(found)
+    colours = colours_of(found, program)
     for method, by_depth in found.items():
         chart.add_line(list(by_depth.values()), colours[method])
         for depth, point in by_depth.items():
@@ -314,7 +314,7 @@ def main():
     if not study.found:
         raise Missing(f"{arguments.results} has no results; make them with --run")
     if arguments.svg:
-        drawn_depths(study, arguments.svg)
+        drawn_depths(study, arguments.svg, arguments.footprint)
     sys.stdout.write(document(study, arguments.svg))
     return 0
 

@@ -8,6 +8,7 @@
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
 #include "app/subcommand.hpp"
+#include "experiments/studies/quick_advice.hpp"
 #include "renderer/core/numbers.hpp"
 #include "renderer/languages/compilers.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"

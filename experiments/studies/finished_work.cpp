@@ -17,6 +17,7 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

@@ -9,6 +9,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/image_io.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "renderer/core/error.hpp"
+#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/report.hpp"
+#include "results/report/results_table.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/fresh_folder.hpp"
 

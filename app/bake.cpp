@@ -8,6 +8,7 @@
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/languages/compilers.hpp"
 #include "renderer/pipeline/surface_program.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
@@ -57,6 +58,7 @@ std::vector<ShaderLanguage> languages_of(const std::string& list) {
     const bool is_new = std::ranges::find(languages, language) == languages.end();
     if (language != ShaderLanguage::glsl && is_new) languages.push_back(language);
   }
+  if (!languages.empty()) require_compilers("--language " + list);
   return languages;
 }
 

@@ -22,6 +22,7 @@
 
 #include "app/commands.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/languages/compilers.hpp"
 
 namespace footprint {
 namespace {
@@ -114,7 +115,8 @@ ChildResult run_compiler(const Chip& chip, const fs::path& driver, const fs::pat
                    Error(ErrorKind::machine, "--gpu", "the compiling process cannot be started", "free memory"), tick);
 }
 
-ChipOutcomes compile(const Chip& chip, std::span<const SpirvProgram> programs, const Progress& progress) {
+ChipOutcomes compile(const Chip& chip, std::span<const GlslProgram> programs, const Progress& progress) {
+  require_compilers("--gpu");
   const fs::path driver = driver_file();
   const OutputFolder scratch(fs::temp_directory_path() / "footprint-gpu");  // never moved to its place
   write_programs(programs, scratch.path());
@@ -187,7 +189,7 @@ FurtherTimes times_of_processes(int count, const std::vector<std::string>& furth
 GpuCompiler amd_compiler() { return compile; }
 
 GpuCompiler amd_compiler_if_installed() {
-  return [](const Chip& chip, std::span<const SpirvProgram> programs, const Progress& progress) {
+  return [](const Chip& chip, std::span<const GlslProgram> programs, const Progress& progress) {
     try {
       return compile(chip, programs, progress);
     } catch (const Error& error) {

@@ -55,10 +55,11 @@ inline constexpr const char* compile_command = "compile-for-gpu";
 
 /// Starts this program for each chip with Mesa's driver for AMD and the chip's name in its environment. A process that
 /// crashes is started again for the programs after the one that crashed it.
-/// Throws Error (machine): the driver is not installed, with the package; a process cannot be started.
+/// Throws Error (machine): the build has no compilers, or the driver is not installed, with the package; a process
+/// cannot be started.
 [[nodiscard]] GpuCompiler amd_compiler();
 
-/// The same, but each outcome has the reason if the driver is missing or a process cannot be started.
+/// amd_compiler() whose outcomes have the reason if it cannot compile.
 [[nodiscard]] GpuCompiler amd_compiler_if_installed();
 
 }  // namespace footprint

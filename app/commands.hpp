@@ -32,6 +32,7 @@ void add_statistics_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_cost_command(CLI::App& app);
+void add_colors_command(CLI::App& app);
 void add_compile_command(CLI::App& app);
 void add_completions_command(CLI::App& app);
 

@@ -2,6 +2,7 @@
 #include "app/child_process.hpp"
 #include "app/experiment_runs.hpp"
 #include "app/subcommand.hpp"
+#include "renderer/languages/compilers.hpp"
 
 namespace footprint {
 namespace {
@@ -51,6 +52,7 @@ Results compare_into(OutputFolder& folder, const RunSettings& settings, bool qui
 
 void run_compare_command(const CompareArguments& arguments) {
   const RunSettings settings = arguments.settings();
+  if (!settings.gpus.empty()) require_compilers("--gpu");
   ProgressDisplay display(progress_style(arguments.quiet));
   if (!arguments.timing_file.empty()) {
     return write_frame_times(arguments.timing_file, time_frames(settings, display.callback()));

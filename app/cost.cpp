@@ -3,6 +3,7 @@
 #include "app/subcommand.hpp"
 #include "experiments/studies/frame_times.hpp"
 #include "experiments/studies/gpu_cost.hpp"
+#include "renderer/languages/compilers.hpp"
 
 namespace footprint {
 namespace {
@@ -26,6 +27,7 @@ struct CostArguments : RunArguments {
 
 void run_cost(const CostArguments& arguments) {
   const RunSettings settings = arguments.settings();
+  require_compilers("cost");
   ProgressDisplay display(progress_style(arguments.quiet));
   CostReport report = estimate_costs(settings, amd_compiler(), display.callback());
   display.finish();

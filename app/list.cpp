@@ -1,4 +1,4 @@
-// The subcommands about this program: `list`, `info` and `completions`.
+// The subcommands about this program: `list`, `info` and `completions`; and the colours of methods, for figures.
 #include <nlohmann/json.hpp>
 #include <variant>
 
@@ -13,6 +13,7 @@
 #include "renderer/core/process.hpp"
 #include "renderer/gl/context.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
+#include "results/report/method_colors.hpp"
 #include "scenes/surfaces/registry.hpp"
 
 namespace footprint {
@@ -199,6 +200,16 @@ void run_list(const ListArguments& arguments) {
   write_output(arguments.json ? json.dump(2) + "\n" : text);
 }
 
+// {method: {theme: colour}}.
+Json colors_json(const std::vector<std::string>& methods) {
+  const std::vector<std::size_t> places = color_places(methods);
+  Json json = Json::object();
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    json[methods[i]] = {{"light", report_palette().light[places[i]]}, {"dark", report_palette().dark[places[i]]}};
+  }
+  return json;
+}
+
 void run_info() {
   write_output(fmt::format("footprint {}\n\n{}\nmachine\n  {:<22} {}\n  {:<22} {} available\n", FOOTPRINT_VERSION,
                            kind_text("backends"), "processor", describe_cpu(), "memory",
@@ -220,6 +231,14 @@ void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Show version, OpenGL backends and limits");
   command->footer(info_examples);
   command->callback(run_info);
+}
+
+void add_colors_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("method-colors", "Print the colours of methods in reports, as JSON");
+  const auto methods = std::make_shared<std::vector<std::string>>();
+  command->add_option("methods", *methods)->required();
+  command->group("");  // no part of the help: the figures of the documents are drawn by it
+  command->callback([methods] { write_output(colors_json(*methods).dump() + "\n"); });
 }
 
 void add_completions_command(CLI::App& app) {

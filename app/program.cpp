@@ -51,6 +51,7 @@ void add_subcommands(CLI::App& app) {
   add("Export", {add_bake_command, add_shader_command, add_surface_command});
   add("Reproduce and guard", {add_run_command, add_check_command, add_merge_command});
   add("This program", {add_list_command, add_info_command, add_completions_command});
+  add_colors_command(app);
   add_compile_command(app);
 }
 

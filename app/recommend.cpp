@@ -8,7 +8,9 @@
 #include "app/experiment_runs.hpp"
 #include "app/folders.hpp"
 #include "app/subcommand.hpp"
+#include "experiments/studies/quick_advice.hpp"
 #include "renderer/core/numbers.hpp"
+#include "renderer/languages/compilers.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -128,6 +130,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
                              .gpu_compiler = amd_compiler()};
   set_max_cost(arguments.max_cost, settings);
   if (arguments.predicted) return run_quick_command(arguments, settings);
+  if (!settings.run.gpus.empty()) require_compilers("--max-cost");
   warn_without_captions();
   ProgressDisplay display(progress_style(arguments.quiet));
   const FinishedWork finished = finished_work_of(settings.run, arguments.output, arguments.fresh);

@@ -4,6 +4,7 @@
 #include "experiments/studies/stage.hpp"
 #include "renderer/baked_files/baked_files.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/languages/compilers.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
@@ -56,6 +57,7 @@ void run_shader(const ShaderArguments& arguments) {
   const ShaderLanguage language = word_value(shader_languages, arguments.language, "language", "--language");
   if (language == ShaderLanguage::spirv && arguments.output.empty())
     throw Error(ErrorKind::usage, "--language spirv", "is binary", "name a file with -o");
+  if (language != ShaderLanguage::glsl) require_compilers("--language " + arguments.language);
   ProgressDisplay display(progress_style(arguments.quiet));
   const Scene scene = run.scene.empty() ? common_scene() : load_scene(run.scene, run.scene_library, run.overrides);
   const EffectSet effects = effects_on(derive_effects(scene));

@@ -10,6 +10,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/core/process.hpp"
 #include "renderer/image/false_color.hpp"
+#include "results/report/results_table.hpp"
 
 namespace footprint {
 namespace {

@@ -14,9 +14,7 @@ find_package(fmt CONFIG REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(Eigen3 CONFIG REQUIRED)
 find_package(embree CONFIG REQUIRED)  # 3 or 4: renderer/visibility/embree.hpp
-find_package(glslang CONFIG REQUIRED)
-find_package(spirv_cross_c_shared CONFIG REQUIRED)
-find_package(VulkanHeaders CONFIG REQUIRED)
+include("${CMAKE_CURRENT_LIST_DIR}/FootprintCompilers.cmake")
 # A library for which Debian has no CMake files, as an imported target.
 function(footprint_import target header library)
   find_path(${target}_HEADERS ${header} REQUIRED)

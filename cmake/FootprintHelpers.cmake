@@ -112,7 +112,8 @@ function(footprint_add_command_test name)
   add_test(NAME ${name} COMMAND ${ARG_COMMAND} ${only})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77)
   set_property(TEST ${name} PROPERTY ENVIRONMENT "FOOTPRINT_PROGRAM=$<TARGET_FILE:footprint>"
-                                                 "FOOTPRINT_SOURCE_DIR=${PROJECT_SOURCE_DIR}" ${ARG_ENVIRONMENT})
+                                                 "FOOTPRINT_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
+                                                 "FOOTPRINT_HAS_COMPILERS=${FOOTPRINT_HAS_COMPILERS}" ${ARG_ENVIRONMENT})
   footprint_set_tier(${name} ${ARG_TIER})
 endfunction()
 

@@ -9,7 +9,7 @@ endif()
 
 option(FOOTPRINT_WERROR "Treat warnings as errors" OFF)
 option(FOOTPRINT_TESTS "Build the tests" ON)
-option(FOOTPRINT_BENCH "Build the benchmarks" ON)
+option(FOOTPRINT_BENCH "Build the benchmarks and the programs of scripts/studies" ON)
 option(FOOTPRINT_UNITY "Compile sources of a library or test eight at once" ON)
 option(FOOTPRINT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(FOOTPRINT_FUZZ "Build libFuzzer targets for the readers (Clang, with FOOTPRINT_SANITIZE)" OFF)

@@ -47,7 +47,7 @@ first_command() {
 list_sources() {
   (
     cd -- "$footprint_root" || exit
-    [ $# -gt 0 ] || set -- app bench experiments methods renderer results scenes tests
+    [ $# -gt 0 ] || set -- app bench experiments methods renderer results scenes scripts tests
     if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
       git ls-files -z -- "$@"
     else

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "experiments/settings/setting.hpp"
+#include "renderer/core/gpu_chips.hpp"
 #include "renderer/core/memory.hpp"
 #include "renderer/core/numbers.hpp"
-#include "renderer/gpu_cost/estimate.hpp"
 
 namespace footprint::setting_types {
 

@@ -19,6 +19,7 @@
 #include "renderer/core/bytes.hpp"
 #include "renderer/core/files.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

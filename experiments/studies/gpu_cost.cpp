@@ -46,13 +46,15 @@ std::vector<std::pair<FixedTrips, double>> weighed_trips(const PixelTrips& trips
 }
 
 // Reads the textures 0 and 1: its code tells how far apart a driver puts two descriptors.
-SpirvProgram calibration() {
-  return spirv_program("calibration", "#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n",
-                       "#version 450 core\n"
-                       "layout(binding = 0) uniform sampler2D first;\nlayout(binding = 1) uniform sampler2D second;\n"
-                       "layout(location = 0) out vec4 color;\n"
-                       "void main() { color = textureLod(first, gl_FragCoord.xy, 0.0) + "
-                       "textureLod(second, gl_FragCoord.yx, 0.0); }\n");
+GlslProgram calibration() {
+  return {.name = "calibration",
+          .vertex = "#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n",
+          .fragment =
+              "#version 450 core\n"
+              "layout(binding = 0) uniform sampler2D first;\nlayout(binding = 1) uniform sampler2D second;\n"
+              "layout(location = 0) out vec4 color;\n"
+              "void main() { color = textureLod(first, gl_FragCoord.xy, 0.0) + "
+              "textureLod(second, gl_FragCoord.yx, 0.0); }\n"};
 }
 
 // Whether samples of a method's map read its finest level whatever the footprint, because it has no other.
@@ -132,7 +134,7 @@ double distance_of(const RunSettings& settings) {
 
 GpuCosts::GpuCosts(const Stage& stage, const std::vector<std::string>& gpus, GpuCompiler compile)
     : stage_(stage), compile_(std::move(compile)) {
-  const SpirvProgram program = calibration();
+  const GlslProgram program = calibration();
   for (const Chip* chip : chips_named("--gpu", gpus)) {
     const ChipOutcomes outcomes = compile_(*chip, {&program, 1}, no_progress);
     const CompileOutcome& outcome = outcomes.programs.front();
@@ -193,13 +195,12 @@ std::vector<std::pair<CostedProgram, double>> GpuCosts::weighed_programs(const S
 
 void GpuCosts::compile_missing(CompilingChip& chip, const CostedFrame& frame, const Progress& progress) {
   if (!chip.failure.empty()) return;
-  std::vector<SpirvProgram> missing;
+  std::vector<GlslProgram> missing;
   std::vector<CompileOutcome*> places;
   for (const CostedProgram& program : programs_of(frame)) {
     const auto [place, is_new] = chip.compiled.try_emplace(program);
     if (!is_new) continue;
-    missing.push_back(spirv_program(frame.name, program.vertex, program.fragment));
-    missing.back().targets = program.targets;
+    missing.push_back({frame.name, program.vertex, program.fragment, program.targets});
     places.push_back(&place->second);
   }
   if (missing.empty()) return;

@@ -12,6 +12,7 @@
 #include "renderer/core/error.hpp"
 #include "renderer/image/metrics.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

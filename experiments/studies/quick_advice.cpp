@@ -1,5 +1,5 @@
 // Reads the maps on the CPU: no context is made.
-#include "experiments/studies/recommend.hpp"
+#include "experiments/studies/quick_advice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

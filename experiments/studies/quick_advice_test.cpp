@@ -1,5 +1,5 @@
 // The model's sum, the choice that follows, and what the model of this build has.
-#include "experiments/studies/recommend.hpp"
+#include "experiments/studies/quick_advice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -15,6 +15,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/scene/assembly/load_scene.hpp"
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

@@ -1,5 +1,5 @@
-// The work of a compiled shader, counted in the compiler's own code, and the cost of a frame on a chip: its published
-// figures (docs/explanation/gpu-cost.md cites them), and the counted work against them.
+// The work of a compiled shader, counted in the compiler's own code, and the cost of a frame on a chip: the counted
+// work against the published rates of the chip.
 #pragma once
 
 #include <map>
@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/core/gpu_chips.hpp"
 #include "renderer/core/gpu_cost.hpp"
 
 namespace footprint {
@@ -53,39 +54,6 @@ struct ShaderWork {
 /// The bytes between two descriptors, from the code of a program that reads the textures 0 and 1, in that order.
 /// Throws Error (machine): it does not.
 [[nodiscard]] int descriptor_bytes(const std::string& code);
-
-/// The rates of a generation of AMD's GPUs. A wave has 64 pixels.
-struct Generation {
-  std::string_view name;
-  int simds;                  ///< of a compute unit
-  double full_clocks;         ///< of a SIMD for a vector instruction of one wave
-  double quarter_clocks;      ///< for one at a quarter of the rate
-  bool quarter_apart;         ///< those run beside others: a further unit, which takes full_clocks to start one
-  double scalar_clocks;       ///< of a SIMD for a scalar instruction
-  double filtered_per_clock;  ///< bilinear samples of a compute unit, of texels of 32 bits
-  double rate_64, rate_128;   ///< factors on that for texels of 64 and 128 bits
-  double line_bytes;          ///< of a line of the last cache before memory
-};
-
-/// A product.
-struct Chip {
-  std::string_view name;    ///< as on the command line
-  std::string_view family;  ///< the driver's name: RADV_FORCE_FAMILY
-  const Generation* generation;
-  int compute_units;
-  double ghz;  ///< published peak clock
-  double gigabytes_per_second;
-};
-
-/// All chips, oldest first.
-[[nodiscard]] std::span<const Chip> chips();
-
-/// Their names.
-[[nodiscard]] std::vector<std::string> chip_names();
-
-/// The chips of names as a user writes them, in any case; `all` stands for all of them.
-/// Throws Error (usage, at `place`): no chip has such a name; the message lists all, and the nearest.
-[[nodiscard]] std::vector<const Chip*> chips_named(std::string_view place, const std::vector<std::string>& names);
 
 /// A compiled program that counts `weight` times in a frame's work. The weights of one frame add up to 1: loops that
 /// run n times cost what one round costs, and n - 1 times what a further round adds.

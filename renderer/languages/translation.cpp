@@ -204,10 +204,6 @@ std::string with_comments(const std::string& text, const std::string& glsl) {
   return out;
 }
 
-std::string file_extension(ShaderLanguage language) {
-  return language == ShaderLanguage::spirv ? "spv" : std::string(word_for(shader_languages, language));
-}
-
 std::vector<ShaderInput> shader_inputs(const Spirv& code) {
   const Compiler compiler(code, SPVC_BACKEND_NONE);
   std::vector<ShaderInput> inputs;

@@ -23,7 +23,9 @@ inline constexpr auto shader_languages = own_words<ShaderLanguage::glsl, ShaderL
                                                    ShaderLanguage::msl, ShaderLanguage::spirv>;
 
 /// The extension of a file: "spv" for SPIR-V, else the language's name.
-[[nodiscard]] std::string file_extension(ShaderLanguage language);
+[[nodiscard]] inline std::string file_extension(ShaderLanguage language) {
+  return language == ShaderLanguage::spirv ? "spv" : std::string(word_for(shader_languages, language));
+}
 
 /// An input or output of a shader.
 struct ShaderInput {

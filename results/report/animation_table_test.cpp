@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
+#include "results/report/results_table.hpp"
 #include "tests/report/example_animation.hpp"
 
 namespace footprint {

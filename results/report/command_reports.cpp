@@ -12,6 +12,7 @@
 #include "renderer/core/files.hpp"
 #include "renderer/core/memory.hpp"
 #include "results/report/page.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {

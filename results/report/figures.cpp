@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "renderer/core/memory.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {
@@ -235,6 +236,8 @@ std::string spread_text(double median, double low, double high) {
   if (!std::isfinite(median)) return "n/a";
   return fmt::format("{} ({}-{})", three_figures(median), three_figures(low), three_figures(high));
 }
+
+std::string ratio_text(const TimeRatio& ratio) { return spread_text(ratio.median, ratio.low, ratio.high); }
 
 std::optional<double> equivalent_spp(const Record& record) {
   const bool within = record.equivalent && record.equivalent->side == CurveSide::within;

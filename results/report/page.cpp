@@ -12,6 +12,7 @@
 #include "renderer/core/embedded_texts.hpp"
 #include "renderer/image/false_color.hpp"
 #include "results/report/json_archive.hpp"
+#include "results/report/method_colors.hpp"
 #include "results/report/report.hpp"
 
 namespace footprint {
@@ -164,6 +165,33 @@ Json scale_colors() {
   return list;
 }
 
+/// The methods of a page: of the records of its runs or, without runs, of the images of its views after the reference.
+std::vector<std::string> methods_on(const Json& data) {
+  std::vector<std::string> methods;
+  const auto add = [&](const std::string& name) {
+    if (std::ranges::find(methods, name) == methods.end()) methods.push_back(name);
+  };
+  if (const auto runs = data.find("runs"); runs != data.end() && !runs->empty()) {
+    for (const Json& run : *runs) {
+      for (const Json& record : run.at("results").at("records")) add(record.at("method").get<std::string>());
+    }
+    return methods;
+  }
+  for (const Json& view : data.at("views")) {
+    const Json& images = view.at("images");
+    for (std::size_t i = 1; i < images.size(); ++i) add(images[i].at("name").get<std::string>());
+  }
+  return methods;
+}
+
+/// {method: the place of its colour}.
+Json places_of_colors(const std::vector<std::string>& methods) {
+  const std::vector<std::size_t> places = color_places(methods);
+  Json json = Json::object();
+  for (std::size_t i = 0; i < methods.size(); ++i) json[methods[i]] = places[i];
+  return json;
+}
+
 }  // namespace
 
 void fields(JsonWriter& archive, const Page& value) {
@@ -175,13 +203,14 @@ void fields(JsonWriter& archive, const Page& value) {
   archive("shown", value.shown);
   archive("sections", value.sections);
   archive("provenance", value.provenance);
-  archive("palette", Json::parse(find_text(page_texts, "palette.json")->text));
+  archive("palette", Json{{"light", report_palette().light}, {"dark", report_palette().dark}});
   archive("scale_colors", scale_colors());
 }
 
 std::string page_html(const Page& page, const nlohmann::ordered_json& own) {
   Json data = to_json_value(page);
   data.update(own);
+  data["color_places"] = places_of_colors(methods_on(data));
   std::string scripts;
   for (const std::string_view file : page_scripts) {
     scripts += fmt::format("<script>\n{}</script>\n", find_text(page_texts, file)->text);

@@ -43,22 +43,8 @@ const option = (value, text = value) => Object.assign(element('option', '', text
 const byId = (id) => document.getElementById(id);
 const theme = () => (dark.matches && !paper.matches ? 'dark' : 'light');
 
-/** {method: the place of its colour}: the same in all reports. Of two methods that share it the second takes the next free one. */
-function colorPlaces() {
-  const order = [...new Set([...palette.methods, ...methods.map((method) => method.split(':')[0])])];
-  const known = (method) => order.indexOf(method.split(':')[0]);
-  const places = new Map(), taken = new Set(), count = palette.light.length;
-  for (const method of [...methods].sort((a, b) => known(a) - known(b))) {
-    if (taken.size === count) taken.clear();
-    let place = known(method) % count;
-    while (taken.has(place)) place = (place + 1) % count;
-    taken.add(place);
-    places.set(method, place);
-  }
-  return places;
-}
-
-const placeOfColor = colorPlaces();
+// {method: the place of its colour}, as the program assigns them for all reports.
+const placeOfColor = new Map(Object.entries(data.color_places));
 const seriesColor = (method) => palette[theme()][placeOfColor.get(method) ?? 0];
 const styleValue = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 

@@ -1,6 +1,6 @@
 // Compares the records of a distance by their shading error, says in words what follows, and walks the supersampling
 // curve from its right end to the last point that is not better than the method.
-#include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "renderer/core/error.hpp"
+#include "results/report/figures.hpp"
 
 namespace footprint {
 namespace {
@@ -265,8 +266,6 @@ std::optional<int> rank(const Record& record, const DistanceRecords& records) {
   return 1 + static_cast<int>(
                  std::ranges::count_if(records, [&](const Record& other) { return is_better(other, record); }));
 }
-
-std::string ratio_text(const TimeRatio& ratio) { return spread_text(ratio.median, ratio.low, ratio.high); }
 
 std::optional<std::string> linear_measures_warning(double distance, const std::optional<double>& standard_error) {
   if (!standard_error || *standard_error <= converged_standard_error) return {};

@@ -1,6 +1,6 @@
 // The ranks of methods, and sentences that claim no more than the figures support. Equivalent samples against curves
 // whose answer is known in closed form.
-#include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "renderer/core/error.hpp"
+#include "results/report/figures.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {

@@ -7,6 +7,7 @@
 #include "results/report/command_reports.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/recommendation.hpp"
 #include "results/report/region_report.hpp"
 #include "results/report/report.hpp"

@@ -13,7 +13,9 @@
 #include "renderer/core/files.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/page.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
+#include "results/report/results_table.hpp"
 
 namespace footprint {
 namespace {

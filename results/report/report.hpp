@@ -17,27 +17,8 @@ namespace footprint {
 /// infinities and absent figures as null.
 [[nodiscard]] std::string results_json(const Results& results);
 
-/// One line per record, RFC 4180; the header names every column (figures.hpp).
-[[nodiscard]] std::string results_csv(const Results& results);
-
-/// The error and fps table in Markdown, aligned so that it also reads well in a terminal.
-[[nodiscard]] std::string results_table(const Results& results);
-
-/// "a zoom from distance 1 to 8", "an orbit by 60 degrees at distance 1".
-/// results: of an animation (`way`).
-[[nodiscard]] std::string path_words(const Results& results);
-
-/// Two tables in Markdown, one line per method: means over the frames and the worst frame's flicker; the causes of
-/// flicker. results: of an animation (`way`).
-[[nodiscard]] std::string animation_table(const Results& results);
-
 /// The page, whole and self-contained but for the pictures in `images/` beside it; opens from disk without a network.
 [[nodiscard]] std::string results_page(const Results& results);
-
-/// The text that the program prints: for each distance the most accurate method and the cheapest that improves on
-/// `direct`, then one row per method and distance, the smallest error first. At most about 110 columns wide with short
-/// names.
-[[nodiscard]] std::string results_summary(const Results& results);
 
 /// Writes the four files into `folder` (which exists), each whole or not at all: results.json first, then the others,
 /// whose loss is a loss of the folder. The losses so far are warnings in each file. Errors (machine): no results.json.

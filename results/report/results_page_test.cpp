@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "renderer/core/error.hpp"
+#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/report.hpp"
+#include "results/report/results_table.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/fresh_folder.hpp"
 
@@ -70,6 +72,7 @@ TEST(ResultsPage, CarriesTheDocumentOfResultsJson) {
   EXPECT_EQ(data.at("runs").front().at("folder"), "");
   EXPECT_EQ(data.at("runs").front().at("results"), nlohmann::json::parse(results_json(results)));
   EXPECT_EQ(data.at("runs").front().at("display").size(), results.records.size());
+  for (const Record& record : results.records) EXPECT_TRUE(data.at("color_places").contains(record.method));
   EXPECT_EQ(data.at("scale_colors").size(), 256U);
   EXPECT_NE(data.at("scale_colors").front(), data.at("scale_colors").back());
 }

@@ -1,5 +1,5 @@
 // The output of a terminal: the answer, and a table that starts with the least error.
-#include "results/report/report.hpp"
+#include "results/report/results_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 // Results as Markdown tables of at most about 130 columns: errors and times by distance, what each method prepares,
 // the supersampling curve, and a sentence on each method. And the text that the program prints: the answer at each
 // distance, and a table padded with spaces.
+#include "results/report/results_table.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,6 +21,7 @@
 #include "renderer/core/memory.hpp"
 #include "results/report/experiment_report.hpp"
 #include "results/report/page.hpp"
+#include "results/report/ranking.hpp"
 #include "results/report/record_fields.hpp"
 
 namespace footprint {

@@ -6,6 +6,7 @@
 #include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/report.hpp"
+#include "results/report/results_table.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/says.hpp"
 

@@ -29,6 +29,10 @@ const std::vector<Case> listing_cases{
      .arguments = {"list"},
      .output_has = {"methods\n", "scenes\n", "surfaces\n", "backends\n"}},
     {.name = "ListAsJson", .arguments = {"list", "methods", "--json"}, .output_has = {"\"methods\"", "\"options\""}},
+    {.name = "MethodColors",
+     .arguments = {"method-colors", "toksvig", "toksvig:storage=fp16"},
+     .output_has = {R"("toksvig":{"light":"#0072b2","dark":"#4aa8e8"})",
+                    R"("toksvig:storage=fp16":{"light":"#d55e00")"}},
     {.name = "NoSubcommand", .output_has = {"Usage: footprint", "Compare:", "Export:", "Reproduce and guard:"}},
     {.name = "Info", .arguments = {"info"}, .output_has = {"backends\n", "OpenGL 4.5", "processor", "memory"}},
 };

@@ -50,6 +50,7 @@ std::vector<Case> of_compare_and_render(const std::vector<Case>& rows) {
 }
 
 void CommandLine::SetUp() {
+  if (GetParam().needs_compilers && !FOOTPRINT_HAS_COMPILERS) GTEST_SKIP() << "no compilers of shaders";
   fs::create_directories(work());
   for (const auto& [name, content] : GetParam().files) {
     fs::create_directories((work() / name).parent_path());

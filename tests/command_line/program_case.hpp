@@ -31,11 +31,12 @@ struct Case {
   std::optional<std::uint64_t> file_size_limit{};  ///< bytes a file may have: a full disk
   std::string interrupt_at{};                      ///< Ctrl-C at this text on standard error
   std::set<std::string> leaves{};                  ///< files that must be there afterwards
-  bool keeps_work = false;      ///< of a run that failed, what it had finished stays in out/kept, and beside `leaves`
-  bool keeps_results = false;   ///< of a run that lost a file, everything else is there
-  double seconds = 120;         ///< it must have ended by then
-  bool starts_program = false;  ///< by its file, as a shell does: rows of processes that start themselves,
-                                ///< and of variables that the loader of libraries reads
+  bool keeps_work = false;       ///< of a run that failed, what it had finished stays in out/kept, and beside `leaves`
+  bool keeps_results = false;    ///< of a run that lost a file, everything else is there
+  double seconds = 120;          ///< it must have ended by then
+  bool needs_compilers = false;  ///< skipped in a build without compilers of shaders
+  bool starts_program = false;   ///< by its file, as a shell does: rows of processes that start themselves,
+                                 ///< and of variables that the loader of libraries reads
 };
 
 void PrintTo(const Case& row, std::ostream* out);

@@ -6,7 +6,7 @@ import os
 import subprocess
 import unittest
 
-from whole_runs import PROGRAM, SOURCE, WholeRunTest, program_with
+from whole_runs import HAS_COMPILERS, PROGRAM, SOURCE, WholeRunTest, needs_compilers, program_with
 
 SCENE = ["ribbed_plane", "--size", "32x32", "--distance", "2"]
 METHODS = ["direct", "toksvig", "lean", "tan_gmm:n=1", "tan_gmm:n=2", "tan_gmm:n=4"]
@@ -17,6 +17,7 @@ def cost(*arguments, **variables):
     return subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | variables, timeout=300)
 
 
+@needs_compilers
 class Costs(WholeRunTest):
     three = None  # what three_methods() made
 
@@ -212,12 +213,6 @@ class Costs(WholeRunTest):
         done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
         self.assert_fails(done, 2, "none.toml:6", "no GPU's cost is estimated", "gpu = ")
 
-    def assert_fails(self, done, code, *texts):
-        self.assertEqual(done.returncode, code, done.stderr)
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        for text in texts:
-            self.assertIn(text, done.stderr)
-
     def test_an_unknown_gpu(self):
         self.assert_fails(cost(*SCENE, "--gpu", "RX 6900"), 2, "--gpu", "rx 6900", "did you mean", "rx 6800")
 
@@ -230,6 +225,38 @@ class Costs(WholeRunTest):
         self.assertTrue(files)
         done = cost(*SCENE, VK_DRIVER_FILES=f"/usr/share/vulkan/icd.d/{files[0]}")
         self.assert_fails(done, 3, "--gpu Steam Deck")
+
+
+@unittest.skipIf(HAS_COMPILERS, "this build has compilers of shaders")
+class WithoutCompilers(WholeRunTest):
+    """A build without Vulkan's headers, glslang or SPIRV-Cross: one error before any work, and GLSL as ever."""
+
+    def refused(self, *arguments):
+        done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
+        self.assert_fails(done, 3, "this program was built without", "FOOTPRINT_SHADER_COMPILERS=ON")
+        return done.stderr
+
+    def test_what_needs_them_says_what_is_missing(self):
+        self.assertIn("cost: ", self.refused("cost", *SCENE, "-q"))
+        self.assertIn("--gpu: ", self.refused("compare", *SCENE, "--gpu", "PS4", "-q", "-o", self.folder / "none"))
+        self.assertIn("--max-cost: ", self.refused("recommend", *SCENE, "--max-cost", "2@PS4", "-q", "-o", self.folder / "none"))
+        self.assertIn("--language hlsl: ", self.refused("shader", "lean", "--language", "hlsl"))
+        self.assertIn("--language essl: ", self.refused("bake", *SCENE[:1], "--method", "lean", "--language", "essl", "-o", self.folder / "none"))
+        self.assertFalse((self.folder / "none").exists())
+
+    def test_glsl_is_written(self):
+        done = subprocess.run([PROGRAM, "shader", "lean"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("reflectedTowards(", done.stdout)
+
+    def test_an_experiment_has_all_but_the_estimates(self):
+        file = self.folder / "gpu.toml"
+        file.write_text('[experiment]\ntitle = "t"\nmethods = ["direct"]\nscene = "ribbed_plane"\nsize = [32, 32]\n'
+                        'gpu = ["PS4"]\nrepeats = 1\n[zoom]\ndistances = [2]\n[reference]\nspp = 4\nnoise = 1.0\n', encoding="utf-8")
+        done = subprocess.run([PROGRAM, "run", file, "-q", "-o", self.folder / "run"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        record = json.loads((self.folder / "run/results.json").read_text(encoding="utf-8"))["records"][0]
+        self.assertIn("was built without", record["gpu_costs"][0]["failure"])
 
 
 if __name__ == "__main__":

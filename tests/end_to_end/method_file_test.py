@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, results_of, run
+from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, needs_compilers, results_of, run
 
 SMALL = ("--size", "48x48")
 HEAD = '/*\nname = "mine"\nsummary = "A test."\nreads = ["mean_normal"]\nleaves_out = ["environment_light"]\n*/\n'
@@ -110,10 +110,14 @@ class MethodFileTest(WholeRunTest):
         methods = json.loads((self.folder / "ndf" / "ndf.json").read_text(encoding="utf-8"))["methods"]
         self.assertEqual(methods[copy]["l2"], methods["toksvig"]["l2"])
         self.assertIn("mean_normal", run("explain", "bumps", "--method", copy))
+        run("animate", "bumps", *SMALL, "--methods", copy, "--frames", 2, "--quiet", "-o", "animation")
+
+    @needs_compilers
+    def test_its_cost_is_estimated(self):
+        copy = self.copy_of("toksvig")
         run("cost", "bumps", *SMALL, "--methods", f"toksvig,{copy}", "--gpu", "Steam Deck", "-q", "-o", "cost")
         own, same = json.loads((self.folder / "cost" / "cost.json").read_text(encoding="utf-8"))["methods"]
         self.assertEqual(same["gpus"][0]["cost_ns"], own["gpus"][0]["cost_ns"])
-        run("animate", "bumps", *SMALL, "--methods", copy, "--frames", 2, "--quiet", "-o", "animation")
 
     def test_experiments_name_it_relative_to_their_file(self):
         folder = self.folder / "study"

@@ -17,7 +17,7 @@ from unittest import mock
 import footprint
 import matplotlib.image
 import numpy
-from whole_runs import PROGRAM, SOURCE, WholeRunTest, results_of
+from whole_runs import PROGRAM, SOURCE, WholeRunTest, needs_compilers, results_of
 
 matplotlib.use("agg")
 METHODS = ["direct", "toksvig", "tan_gmm:n=2"]
@@ -197,6 +197,7 @@ class PythonPackage(WholeRunTest):
         self.assertTrue(numpy.isnan(found[:, 0]).all(), "nothing is before the first frame")
         self.assertEqual({(m, f): found[film.axis("method").index(m), film.axis("frame").index(f)] for m, f in means}, means)
 
+    @needs_compilers
     def test_a_cost_is_that_of_its_file(self):
         found = footprint.cost("ribbed_plane", self.folder / "cost", methods=["direct", "toksvig"], quiet=True)
         self.assertEqual(found, json.loads((self.folder / "cost/cost.json").read_text(encoding="utf-8")))

@@ -11,6 +11,8 @@ import unittest
 PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
 ALL_TESTS = "FOOTPRINT_ALL_TESTS" in os.environ  # `scripts/test --all`: whole sweeps
+HAS_COMPILERS = os.environ.get("FOOTPRINT_HAS_COMPILERS") != "OFF"  # of shaders (FOOTPRINT_SHADER_COMPILERS)
+needs_compilers = unittest.skipUnless(HAS_COMPILERS, "this build has no compilers of shaders")
 
 
 def run(*arguments):
@@ -28,6 +30,13 @@ class WholeRunTest(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory(prefix="footprint_end_to_end_")
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.folder = pathlib.Path(cls.scratch.name)
+
+    def assert_fails(self, done, code, *texts):
+        """One line on standard error that has these texts, and the exit code."""
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        for text in ("footprint: ", *texts):
+            self.assertIn(text, done.stderr)
 
     @classmethod
     def compare(cls, name, *arguments):

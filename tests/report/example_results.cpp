@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "results/report/figures.hpp"
+#include "results/report/ranking.hpp"
 
 namespace footprint {
 namespace {

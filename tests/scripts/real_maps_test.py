@@ -1,4 +1,4 @@
-"""scripts/real_maps and real_maps_study on small trees, and no constant is chosen on held-out maps."""
+"""scripts/studies/real_maps.py and real_maps_study on small trees, and no constant is chosen on held-out maps."""
 import hashlib
 import json
 import os
@@ -62,7 +62,7 @@ class RealMaps(unittest.TestCase):
                        capture_output=True)
 
     def collect(self):
-        return subprocess.run([SOURCE / "scripts/real_maps", self.out, f"some-package={self.tree}"], capture_output=True,
+        return subprocess.run([SOURCE / "scripts/studies/real_maps.py", self.out, f"some-package={self.tree}"], capture_output=True,
                               text=True, check=False, env=os.environ)
 
     def test_maps_become_scenes_and_the_rest_is_named(self):
@@ -100,7 +100,7 @@ class RealMaps(unittest.TestCase):
         self.assertAlmostEqual(average / 255, 1025 ** -0.25, delta=1 / 255)  # gloss 1: exponent 2048
 
     def study(self, *words):
-        return subprocess.run([SOURCE / "scripts/real_maps_study", self.out, self.folder / "results", *words],
+        return subprocess.run([SOURCE / "scripts/studies/real_maps_study.py", self.out, self.folder / "results", *words],
                               capture_output=True, text=True, check=False, env=os.environ)
 
     def test_the_study_compares_methods_over_maps(self):
@@ -137,7 +137,7 @@ class RealMaps(unittest.TestCase):
 
     def quick_model_of_these(self):
         def fitted():
-            return subprocess.run([SOURCE / "scripts/quick_model", self.out, self.folder / "results"], capture_output=True,
+            return subprocess.run([SOURCE / "scripts/studies/quick_model.py", self.out, self.folder / "results"], capture_output=True,
                                   text=True, check=False, env=os.environ)
 
         alone = fitted()
@@ -187,7 +187,7 @@ class RealMaps(unittest.TestCase):
         self.assertEqual(self.collect().returncode, 0)
 
         def lobes(*words):
-            return subprocess.run([SOURCE / "scripts/real_maps_study", self.out, self.folder / "lobes", "--lobes", *words],
+            return subprocess.run([SOURCE / "scripts/studies/real_maps_study.py", self.out, self.folder / "lobes", "--lobes", *words],
                                   capture_output=True, text=True, check=False, env=os.environ)
 
         missing = lobes()

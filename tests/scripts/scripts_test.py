@@ -13,6 +13,11 @@ import tomllib
 import unittest
 
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
+sys.path += [str(SOURCE / folder) for folder in ("packaging", "scripts", "scripts/studies")]
+
+import accuracy_vs_time  # noqa: E402
+import engine_constants  # noqa: E402
+import portable  # noqa: E402
 
 # Replaces the program: writes pictures whose bytes are those of the file beside it.
 PROGRAM = """#!/bin/sh
@@ -22,10 +27,9 @@ cp "$(dirname "$0")"/pictures/* "$2/images/"
 """
 
 
-def module(path):
-    name = path.name.removesuffix(".py")
-    sys.path.insert(0, str(path.parent))  # its imports are next to it
-    loader = importlib.machinery.SourceFileLoader(name, str(path))
+def command_module(name):
+    """A command of scripts/, whose file has no extension, as a module."""
+    loader = importlib.machinery.SourceFileLoader(name, str(SOURCE / "scripts" / name))
     made = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
     loader.exec_module(made)
     return made
@@ -112,23 +116,22 @@ class PictureHashes(InFolder):
 class PortableArchive(InFolder):
     def setUp(self):
         super().setUp()
-        self.portable = module(SOURCE / "packaging/portable.py")
         self.tree = self.folder / "tree"
         self.tree.mkdir()
         (self.tree / "file").write_bytes(os.urandom(1 << 16))
 
     def test_an_archive_under_the_limit_stays(self):
-        self.portable.pack(self.tree, self.folder / "small.tar.xz", self.portable.LIMIT)
+        portable.pack(self.tree, self.folder / "small.tar.xz", portable.LIMIT)
         self.assertTrue((self.folder / "small.tar.xz").exists())
 
     def test_one_over_the_limit_is_refused_and_leaves_nothing(self):
         with self.assertRaises(SystemExit) as refused:
-            self.portable.pack(self.tree, self.folder / "large.tar.xz", 1 << 15)
+            portable.pack(self.tree, self.folder / "large.tar.xz", 1 << 15)
         self.assertIn("more than 32768", str(refused.exception))
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["tree"])
 
     def test_the_limit_is_what_is_promised(self):
-        self.assertEqual(self.portable.LIMIT, 60 << 20)
+        self.assertEqual(portable.LIMIT, 60 << 20)
 
 
 class ExpectedOutput(InFolder):
@@ -274,7 +277,7 @@ class EngineConstants(InFolder):
 
     def setUp(self):
         super().setUp()
-        self.script = module(SOURCE / "scripts/engine_constants")
+        self.script = engine_constants
         errors = {method: 0.5 for method in {**self.script.CONSTANTS, **self.script.BESIDE}.values()}
         errors.update({self.script.CONSTANTS["1"]: 0.25, self.script.CONSTANTS["2"]: 0.125})
         for name in self.script.SURFACES:
@@ -301,7 +304,7 @@ class EngineConstants(InFolder):
         (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
 
     def run_script(self):
-        return subprocess.run([SOURCE / "scripts/engine_constants", self.folder], capture_output=True, text=True,
+        return subprocess.run([SOURCE / "scripts/studies/engine_constants.py", self.folder], capture_output=True, text=True,
                               check=False)
 
     def test_the_least_error_wins_and_is_cited(self):
@@ -345,7 +348,7 @@ class EngineConstants(InFolder):
 class MeasureGpu(InFolder):
     def setUp(self):
         super().setUp()
-        self.script = module(SOURCE / "scripts/measure_gpu")
+        self.script = command_module("measure_gpu")
 
     def test_only_bounds_on_estimates_may_fail(self):
         program = self.folder / "footprint"
@@ -387,7 +390,7 @@ class AccuracyVsTime(InFolder):
 
     def setUp(self):
         super().setUp()
-        self.script = module(SOURCE / "scripts/accuracy_vs_time")
+        self.script = accuracy_vs_time
         self.filters = self.script.planned(self.script.EXPERIMENTS)["cost"]
         for name in self.filters:
             for member in ("cost", "flicker", "bound", "bumps"):
@@ -419,7 +422,7 @@ class AccuracyVsTime(InFolder):
         return self.folder / experiment / f"{member}-{name.replace(':', '_')}"
 
     def run_script(self, *options):
-        return subprocess.run([SOURCE / "scripts/accuracy_vs_time", self.folder, *options], capture_output=True,
+        return subprocess.run([SOURCE / "scripts/studies/accuracy_vs_time.py", self.folder, *options], capture_output=True,
                               text=True, check=False)
 
     def test_fronts_prices_and_findings(self):

@@ -1,25 +1,16 @@
 """scripts/site: every document, a gallery with a report, the headers' reference, nothing from another host; faults are named."""
-import importlib.machinery
-import importlib.util
 import json
 import os
 import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
+from scripts_test import command_module
+
 SOURCE = pathlib.Path(os.environ["FOOTPRINT_SOURCE_DIR"])
-sys.path.insert(0, str(SOURCE / "scripts"))
-
-
-def script():
-    loader = importlib.machinery.SourceFileLoader("site_script", str(SOURCE / "scripts/site"))
-    made = importlib.util.module_from_spec(importlib.util.spec_from_loader("site_script", loader))
-    loader.exec_module(made)
-    return made
 
 
 class Site(unittest.TestCase):
@@ -62,7 +53,7 @@ class Site(unittest.TestCase):
         self.assertFalse((self.folder / "site").exists())
 
     def test_faults_of_pages_are_named(self):
-        site = script()
+        site = command_module("site")
         (self.folder / "a.html").write_text('<h2 id="here">x</h2><a href="b.html#here">b</a>', encoding="utf-8")
         (self.folder / "b.html").write_text('<h2 id="here">x</h2><a href="a.html#here">a</a>', encoding="utf-8")
         self.assertEqual(site.check_links(self.folder), 2)

@@ -1,4 +1,4 @@
-"""scripts/accuracy_vs_time and scripts/temporal_study on small parts of real runs: they write pages and run nothing twice."""
+"""accuracy_vs_time.py and temporal_study.py on small parts of real runs: they write pages and run nothing twice."""
 import os
 import pathlib
 import re
@@ -15,7 +15,7 @@ class QuickStudy(unittest.TestCase):
     def test_parts_are_run_once_and_make_a_page(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            command = [SOURCE / "scripts/accuracy_vs_time", folder, "--quick", "--run", "--footprint", PROGRAM]
+            command = [SOURCE / "scripts/studies/accuracy_vs_time.py", folder, "--quick", "--run", "--footprint", PROGRAM]
             first = subprocess.run(command, capture_output=True, text=True, check=False)
             self.assertEqual(first.returncode, 0, first.stderr)
             parts = sorted(folder.glob("accuracy_vs_time_quick/*/results.json"))
@@ -35,7 +35,7 @@ class QuickStudy(unittest.TestCase):
     def test_a_still_camera_gains_by_its_history(self):
         with tempfile.TemporaryDirectory() as name:
             def study(*words):
-                return subprocess.run([SOURCE / "scripts/temporal_study", name, "--footprint", PROGRAM, *words],
+                return subprocess.run([SOURCE / "scripts/studies/temporal_study.py", name, "--footprint", PROGRAM, *words],
                                       capture_output=True, text=True, check=False)
 
             self.assertEqual(study().returncode, 1, "no results")
@@ -50,7 +50,7 @@ class QuickStudy(unittest.TestCase):
     def test_a_method_has_the_same_colour_in_all_figures(self):
         methods = ["direct", "naive_mip", "toksvig", "toksvig:storage=unorm8"]
         asked = f"import study; print(*study.colours_of({methods}).values())"
-        done = subprocess.run([sys.executable, "-B", "-c", asked], cwd=SOURCE / "scripts", capture_output=True, text=True, check=True)
+        done = subprocess.run([sys.executable, "-B", "-c", asked], cwd=SOURCE / "scripts/studies", capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout.split(), ["#444444", "#b5488a", "#0072b2", "#d55e00"], "as page_test has it of the page")
 
 

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from scripts_test import SOURCE, module
+from scripts_test import command_module
 
 PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
 
@@ -14,7 +14,7 @@ PROGRAM = os.environ["FOOTPRINT_PROGRAM"]
 class TwoChannelMaps(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.script = module(SOURCE / "scripts" / "two_channel_maps")
+        cls.script = command_module("two_channel_maps")
 
     def test_every_method_of_the_program_is_named(self):
         listed = json.loads(subprocess.run([PROGRAM, "list", "methods", "--json"], check=True, capture_output=True).stdout)

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace footprint::bench {
+namespace footprint {
 
 /// The best linear bases of the rows of a matrix, of any number of terms: the right singular vectors (Eckart and Young
 /// 1936). No basis of as many terms has a smaller sum of squared distances.
@@ -32,4 +32,4 @@ class BestBases {
 [[nodiscard]] Eigen::VectorXf nonnegative_distances(const Eigen::MatrixXf& rows, Eigen::Index terms, int rounds,
                                                     std::uint64_t seed);
 
-}  // namespace footprint::bench
+}  // namespace footprint

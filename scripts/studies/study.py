@@ -1,20 +1,19 @@
-"""Shared by the scripts that run experiments and write pages from their results.
+"""The library of the studies in this folder.
 
-It reads experiments and results.json, runs the program, formats numbers, tables and text, and has the Pareto front.
+It reads experiments and results.json, averages numbers, wraps text, draws charts and has the Pareto front. The studies
+import from here what they share with the other scripts (scripts/common.py).
 """
-import argparse
 import collections
 import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
 import textwrap
-import tomllib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = pathlib.Path(os.environ.get("FOOTPRINT_PROGRAM", ROOT / "build/release/app/footprint"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from common import (PROGRAM, ROOT, Missing, load_results, load_toml, number, parser_of, reported, run_command,
+                    run_footprint, table)
+
 PROSE_WIDTH = 120
 OURS = ("cells", "ndf_atlas")
 UNPUBLISHED = (*OURS, "tan_gmm:covariance=full")  # no paper has this variant of tan_gmm either
@@ -22,41 +21,7 @@ PLAIN = "plain supersampling"
 SUPERSAMPLING = (1, 2, 4, 8, 16, 32, 64)
 
 
-class Missing(Exception):
-    """A result, method or figure that a page needs and the results lack."""
-
-
-# What the scripts' arguments have in common.
-ARGUMENTS = {
-    "results": {"type": pathlib.Path, "metavar": "RESULTS"}, "maps": {"type": pathlib.Path, "metavar": "MAPS"},
-    "--run": {"action": "store_true"}, "--quick": {"action": "store_true"},
-    "--footprint": {"default": PROGRAM, "metavar": "PROGRAM"}, "--svg": {"type": pathlib.Path, "metavar": "FILE"},
-    "--note": {"default": "", "metavar": "TEXT"},
-}
-
-
-def parser_of(documentation, *names):
-    """A parser of some ARGUMENTS, whose help is a script's documentation."""
-    parser = argparse.ArgumentParser(description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in names:
-        parser.add_argument(name, **ARGUMENTS[name])
-    return parser
-
-
-def reported(name, work):
-    """The exit code of `work()`: its own, or 1 after a message if something is missing."""
-    try:
-        return work()
-    except Missing as missing:
-        print(f"{name}: {missing}", file=sys.stderr)
-        return 1
-
-
 # ---- experiments and results
-
-def load_toml(path):
-    return tomllib.loads(path.read_text(encoding="utf-8"))
-
 
 def matrix_of(name):
     """The [matrix] of an experiment's file, over that of its presets."""
@@ -65,14 +30,6 @@ def matrix_of(name):
     presets = content["experiment"].get("presets")
     shared = load_toml(file.parent / presets).get("matrix", {}) if presets else {}
     return shared | content.get("matrix", {})
-
-
-def load_results(path):
-    """A results.json as a dictionary; Missing if it cannot be read."""
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise Missing(f"{path}: {error}") from error
 
 
 def results_in(folder):
@@ -84,39 +41,7 @@ def results_by_filter(folder):
     return {results["footprint"]: results for results in results_in(folder)}
 
 
-def run_footprint(*words, program=PROGRAM, cache=None):
-    """The output of the program; Missing if it fails. `cache` is a folder for bakes instead of the user's own."""
-    environment = os.environ | ({"FOOTPRINT_CACHE": str(cache.absolute())} if cache else {})
-    done = subprocess.run([program, *map(str, words)], stdout=subprocess.PIPE, text=True, check=False, env=environment)
-    if done.returncode != 0:
-        raise Missing(f"`footprint {' '.join(map(str, words))}` failed (exit code {done.returncode})")
-    return done.stdout
-
-
-def tracked_files(root):
-    """The names of the files that git tracks or would track; in a folder without git, of all but those of builds."""
-    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-                            capture_output=True, text=True, check=False)
-    names = listed.stdout.split("\0") if listed.returncode == 0 else [path.relative_to(root).as_posix() for path in root.rglob("*")]
-    return sorted(name for name in names if (root / name).is_file() and not name.startswith("build"))
-
-
-def run_command(*words, cwd=None):
-    """What a program prints; Missing with its message if it fails."""
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, cwd=cwd)
-    if done.returncode != 0:
-        raise Missing(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"{words[0]} failed")
-    return done.stdout
-
-
-# ---- numbers, tables and text
-
-def number(value, digits=3, unit=""):
-    """`value` with `digits` significant digits; "n/a" if there is none."""
-    if value is None:
-        return "n/a"
-    return f"{value:.{digits}g}{' ' + unit if unit else ''}"
-
+# ---- numbers and text
 
 def mean(values):
     return sum(values) / len(values)
@@ -137,19 +62,6 @@ def spread(values):
     return f"{number(middle)} ×/÷ {deviation:.2f}"
 
 
-def cell(text):
-    return str(text).replace("|", "\\|").replace("\n", " ")
-
-
-def table_row(cells):
-    return "| " + " | ".join(cells) + " |"
-
-
-def table(titles, rows):
-    """A Markdown table without a final line break."""
-    return "\n".join([table_row(titles), "|" + "---|" * len(titles), *map(table_row, rows)])
-
-
 def wrapped(text):
     """Paragraphs and items wrapped; tables, headings and images as they are."""
     lines = []
@@ -164,24 +76,13 @@ def wrapped(text):
 # ---- charts
 
 def palette():
-    """The colours of all reports and figures, and the methods in the order in which they choose."""
-    return load_results(ROOT / "results/report/palette.json")
+    """The colours of all reports and figures."""
+    return load_results(ROOT / "results/report/palette.json")["light"]
 
 
-def colours_of(methods):
-    """{method: its colour}, as in all reports (colorPlaces in results/report/page.js)."""
-    colours, order = palette()["light"], palette()["methods"]
-    names = list(dict.fromkeys(order + [method.split(":")[0] for method in methods]))
-
-    def known(method):
-        return names.index(method.split(":")[0])
-
-    found, count = {}, len(colours)
-    for i, method in enumerate(sorted(methods, key=known)):
-        taken = list(found.values())[i // count * count:]
-        turned = [colours[(known(method) + turn) % count] for turn in range(count)]
-        found[method] = next(colour for colour in turned if colour not in taken)
-    return {method: found[method] for method in methods}
+def colours_of(methods, program=PROGRAM):
+    """{method: its colour}, as the program assigns them in all reports."""
+    return {method: colours["light"] for method, colours in json.loads(run_footprint("method-colors", *methods, program=program)).items()}
 
 
 class LogChart:

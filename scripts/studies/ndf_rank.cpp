@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/linear_bases.hpp"
 #include "experiments/studies/ndf_inspection.hpp"
 #include "experiments/studies/picture_files.hpp"
 #include "methods/ndf_atlas/atlas.hpp"
@@ -21,12 +20,10 @@
 #include "renderer/core/error.hpp"
 #include "renderer/ndf/method_ndf.hpp"
 #include "renderer/ndf/reference_ndf.hpp"
+#include "scripts/studies/linear_bases.hpp"
 
 namespace footprint {
 namespace {
-
-using bench::BestBases;
-using bench::nonnegative_distances;
 
 constexpr int rounds = 60;         // of the non-negative functions
 constexpr std::uint64_t seed = 1;  // of texels and non-negative functions

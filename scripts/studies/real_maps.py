@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Collects normal maps that others made, as scenes: scripts/real_maps FOLDER [PACKAGE=FOLDER ...] [--record]
+"""Collects normal maps that others made, as scenes: scripts/studies/real_maps.py FOLDER [PACKAGE=FOLDER ...] [--record]
 
 Downloads the Debian packages of PACKAGES into FOLDER/packages and unpacks them there, without installing anything. A
 PACKAGE=FOLDER has an unpacked tree instead. Each map is checked, described by `footprint statistics` and put in a class.
@@ -33,7 +33,7 @@ MAIN_ALPHA = 0.2
 # SuperTuxKart's shaders turn gloss g into the exponent 2^(10 g + 1) of a Blinn-Phong lobe; alpha^2 = 2 / (exponent + 2), and
 # roughness is the root of alpha.
 GLOSS_STEPS = 64
-SCENE = """# Written by scripts/real_maps from {source} ({package}).
+SCENE = """# Written by scripts/studies/real_maps.py from {source} ({package}).
 [scene]
 name = "{name}"
 description = "{file} of {package}, GGX, alpha {alpha}"
@@ -78,7 +78,7 @@ kind = "sky"
 sun_direction = [0.7, 0.35, 0.6]
 intensity = 0.15
 """
-EXPERIMENT = """# Written by scripts/real_maps.
+EXPERIMENT = """# Written by scripts/studies/real_maps.py.
 [experiment]
 title = "Normal maps that others made: {part}, {form}"
 presets = "{presets}"
@@ -87,7 +87,7 @@ presets = "{presets}"
 scene = {scenes}
 footprint = {filters}
 """
-COST = """# Written by scripts/real_maps. What each method costs: the surface fills the image, at 4 texels per pixel.
+COST = """# Written by scripts/studies/real_maps.py. What each method costs: the surface fills the image, at 4 texels per pixel.
 [experiment]
 title = "Normal maps that others made: cost"
 presets = "{presets}"

@@ -1,12 +1,12 @@
 // Bases of matrices whose ranks are known, against a singular value decomposition that shares no code with them.
-#include "bench/linear_bases.hpp"
+#include "scripts/studies/linear_bases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
 #include <random>
 
-namespace footprint::bench {
+namespace footprint {
 namespace {
 
 // Values of 0 to 1, or of -1 to 1.
@@ -61,4 +61,4 @@ TEST(LinearBases, NonNegativeFunctionsCannotDoWhatOthersCan) {
 }
 
 }  // namespace
-}  // namespace footprint::bench
+}  // namespace footprint

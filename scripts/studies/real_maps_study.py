@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs the study on normal maps that others made, and prints its page (docs/results/real-maps-study.md).
 
-  scripts/real_maps MAPS                             # collects the maps and writes scenes and experiments
-  scripts/real_maps_study MAPS RESULTS --run         # runs every part that RESULTS lacks, then prints the page
-  scripts/real_maps_study MAPS RESULTS --quick --run # tests the machinery, under one filter: no measurement
-  scripts/real_maps_study MAPS RESULTS --lobes --run # breaks errors down into filter, lobes and fit (real-maps.md)
+  scripts/studies/real_maps.py MAPS                             # collects the maps and writes scenes and experiments
+  scripts/studies/real_maps_study.py MAPS RESULTS --run         # runs every part that RESULTS lacks, then prints the page
+  scripts/studies/real_maps_study.py MAPS RESULTS --quick --run # tests the machinery, under one filter: no measurement
+  scripts/studies/real_maps_study.py MAPS RESULTS --lobes --run # breaks errors down into filter, lobes and fit (real-maps.md)
 
 A part is an experiment MAPS/PART.toml; its results are RESULTS/PART/MEMBER/results.json. An interrupted run resumes. The
 page depends only on the results that are there, and says how many maps each figure is of. With --keep PAGE, a half of it
@@ -278,7 +278,7 @@ def document(maps_folder, results, note, kept):
     parts = [part_text(part, maps_folder, results, listed, costs_by_unit(results / "cost"), kept) for part in PARTS]
     if all(part.endswith("Not run.") for part in parts):
         raise Missing(f"{results} has no results; make them with --run")
-    head = (f"# Filtering methods on normal maps that others made\n\n`scripts/real_maps_study` prints this page. [real-maps.md]"
+    head = (f"# Filtering methods on normal maps that others made\n\n`scripts/studies/real_maps_study.py` prints this page. [real-maps.md]"
             f"(real-maps.md) describes the maps, from {versions}. [real_maps.json](../../results/real_maps.json) has their "
             f"hashes.{' ' + note if note else ''} Error is the shading error over interior pixels "
             "([metrics.md](../reference/metrics.md)). Means over distances and maps are geometric. Brackets have the 95% interval of a "

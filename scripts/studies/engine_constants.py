@@ -2,7 +2,7 @@
 """Writes docs/results/engine-constants.md from the results of the experiments engine_constants and engine_constants_screen.
 
   footprint run --all --only engine_constants -o out
-  scripts/engine_constants out > docs/results/engine-constants.md
+  scripts/studies/engine_constants.py out > docs/results/engine-constants.md
 
 The page depends only on the files results.json under RESULTS. It names the scenes and the figures that it is based
 on. Exit code 1 if a scene, a method or a figure is missing.
@@ -130,7 +130,7 @@ def document(folder):
 
 Engines widen a lobe by c / κ, where κ follows from the length of the mean normal. They ship c = 0.5, 0.75 (on \
 ρ² = α), 1 and 2 ([roughness_bake](../../methods/roughness_bake/README.md)). On screen they add c S, where S is the sum \
-of the normal's squared derivatives ([specular_aa](../../methods/specular_aa/README.md)). `scripts/engine_constants` writes \
+of the normal's squared derivatives ([specular_aa](../../methods/specular_aa/README.md)). `scripts/studies/engine_constants.py` writes \
 this page from `experiments/engine_constants.toml` and `engine_constants_screen.toml`: Footprint {screen.results["tool"]["version"]}, \
 {backend["renderer"]}, {reference["spp"]} samples per pixel, filter {screen.results["footprint"]}.
 

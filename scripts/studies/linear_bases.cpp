@@ -1,11 +1,11 @@
 // The eigenvectors of the rows' inner products; alternating non-negative least squares.
-#include "bench/linear_bases.hpp"
+#include "scripts/studies/linear_bases.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <random>
 
-namespace footprint::bench {
+namespace footprint {
 namespace {
 
 constexpr int last_rounds = 20;  // of the coefficients alone
@@ -58,4 +58,4 @@ Eigen::VectorXf nonnegative_distances(const Eigen::MatrixXf& rows, Eigen::Index 
   return (rows - coefficients * functions.transpose()).rowwise().norm();
 }
 
-}  // namespace footprint::bench
+}  // namespace footprint

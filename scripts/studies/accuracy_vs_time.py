@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Runs the experiments accuracy_vs_time* and writes docs/results/accuracy-vs-time.md from their results.
 
-  scripts/accuracy_vs_time out --run                       # runs every part that RESULTS lacks, then writes the page
-  scripts/accuracy_vs_time out > docs/results/accuracy-vs-time.md  # writes the page only
-  scripts/accuracy_vs_time out --quick --run               # tests the machinery in seconds: no measurement
+  scripts/studies/accuracy_vs_time.py out --run                       # runs every part that RESULTS lacks, then writes the page
+  scripts/studies/accuracy_vs_time.py out > docs/results/accuracy-vs-time.md  # writes the page only
+  scripts/studies/accuracy_vs_time.py out --quick --run               # tests the machinery in seconds: no measurement
 
 A part is a member of one of the experiments: a scene under a footprint filter, RESULTS/EXPERIMENT/MEMBER/results.json.
 An interrupted run resumes. Bakes are cached in RESULTS/cache, where all filters share them. The experiments
@@ -151,7 +151,7 @@ def head_part(study, note):
              for part, filters in lacking.items() if filters]
     return f"""# What accuracy costs in time
 
-`scripts/accuracy_vs_time` writes this page from `experiments/accuracy_vs_time.toml`: \
+`scripts/studies/accuracy_vs_time.py` writes this page from `experiments/accuracy_vs_time.toml`: \
 Footprint {results["tool"]["version"]}; images by {renderers}; times by {timed["backend"]["renderer"]}. The scenes have {width} x \
 {height} pixels and references of {" to ".join(ends)} samples per pixel. Error is the shading error over interior pixels \
 ([metrics.md](../reference/metrics.md)). Cost is the frame time over that of `direct` in the member `{study.cost}`: median of \
@@ -423,7 +423,7 @@ def picture(study, file):
     entries = study.entries(study.distances)
     chart = LogChart([entry[:2] for entry in entries], ("frames of direct", "error of shading"),
                      ((1, 2, 4, 8, 16, 32, 64), (0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3)))
-    colours = dict(zip(["-", *study.filters], [palette()["light"][-1], *palette()["light"]]))
+    colours = dict(zip(["-", *study.filters], [palette()[-1], *palette()]))
     front = front_of(entries)
     chart.add_line([entry[:2] for entry in front], "black")
     for cost, error, name, method in entries:

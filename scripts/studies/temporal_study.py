@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Compares prefiltering with temporal accumulation, still and in motion, and prints docs/results/temporal-study.md.
 
-  scripts/temporal_study RESULTS --run         # runs everything that RESULTS lacks, then prints the page
-  scripts/temporal_study RESULTS --run --quick # one scene, still and fast, four frames: tests the script, measures nothing
+  scripts/studies/temporal_study.py RESULTS --run         # runs everything that RESULTS lacks, then prints the page
+  scripts/studies/temporal_study.py RESULTS --run --quick # one scene, still and fast, four frames: tests the script, measures nothing
 
 A run is an animation of a scene along a path at a speed and a distance, under a footprint filter, of every method with and
 without histories. Depths of stochastic footprints and frame times have runs of their own. The results of a run are
@@ -252,13 +252,13 @@ def depths_part(study, svg):
             table(["method", "depth", *depths], rows))
 
 
-def drawn_depths(study, file):
+def drawn_depths(study, file, program):
     """The chart of bias against noise: a line per method, a point per depth."""
     found = {method: {depth: v[:2] for depth, v in by_depth.items() if min(v[:2]) > 0} for method, by_depth in depths_of(study).items()}
     ticks = [v * 10 ** e for e in range(-4, 2) for v in (1, 2, 3, 4, 5, 6, 8)]
     chart = LogChart([v for by_depth in found.values() for v in by_depth.values()],
                      ("bias: relative RMSE of the mean of all draws", "noise: relative RMSE of one draw about that mean"), (ticks, ticks))
-    colours = colours_of(found)
+    colours = colours_of(found, program)
     for method, by_depth in found.items():
         chart.add_line(list(by_depth.values()), colours[method])
         for depth, point in by_depth.items():
@@ -290,7 +290,7 @@ def costs_part(study):
 
 def document(study, svg):
     scenes = sorted({scene for by_scene in study.found.values() for scene in by_scene})
-    head = (f"# Prefiltering beside temporal accumulation\n\n`scripts/temporal_study` prints this page. "
+    head = (f"# Prefiltering beside temporal accumulation\n\n`scripts/studies/temporal_study.py` prints this page. "
             f"[temporal.md](../explanation/temporal.md) has the formulas, [metrics.md](../reference/metrics.md) the measures. Scenes: "
             f"{', '.join(scenes)}; {SIZE} x {SIZE} pixels, {FRAMES} frames, references of {SPP} samples per pixel. The distance is "
             f"{DISTANCE} unless a table has texels per pixel. Histories have alpha 0.1 and 24 frames before the first one. Columns: a "
@@ -314,7 +314,7 @@ def main():
     if not study.found:
         raise Missing(f"{arguments.results} has no results; make them with --run")
     if arguments.svg:
-        drawn_depths(study, arguments.svg)
+        drawn_depths(study, arguments.svg, arguments.footprint)
     sys.stdout.write(document(study, arguments.svg))
     return 0
 

@@ -1,24 +1,23 @@
 #!/usr/bin/python3
 """Fits the model of `footprint recommend --quick`, and prints results/quick_model.json.
 
-  scripts/quick_model MAPS RESULTS [--surfaces FOLDER] > new.json   fits and calibrates it
-  scripts/quick_model MAPS [--surfaces FOLDER] > new.json           keeps the fit, and says anew where it is valid
+  scripts/studies/quick_model.py MAPS RESULTS [--surfaces FOLDER] > new.json   fits and calibrates it
+  scripts/studies/quick_model.py MAPS [--surfaces FOLDER] > new.json           keeps the fit, and says again where it is valid
 
-MAPS and RESULTS are the folders of scripts/real_maps and scripts/real_maps_study. Per method and footprint filter, the
+MAPS and RESULTS are the folders of real_maps.py and real_maps_study.py. Per method and footprint filter, the
 logarithm of the shading error is a constant per footprint size, and a sum over the logarithms of alpha and of the errors
 of four simple lobes (`footprint statistics`), by ridge regression over the maps for development. Their range is the
 model's domain. The held-out maps only calibrate it: their residuals are its intervals, and they say how often its order
 and its choice are right. With --surfaces, surfaces of the project's own generators, which nothing was fitted on, calibrate
 it again: FOLDER is made if it is missing, and measured by some methods. Exit code 1 if a part is missing.
 """
-import importlib.machinery
-import importlib.util
 import json
 import pathlib
 import sys
 
 import numpy
 
+from real_maps import SCENE
 from study import ROOT, Missing, gpu_costs_of, load_results, load_toml, parser_of, reported, results_by_filter, results_in, run_footprint
 
 FILTERS = ("trilinear", "anisotropic:8", "shaded:2")
@@ -100,18 +99,9 @@ def rounded(value):
     return float(f"{value:.5g}") if isinstance(value, float) else value
 
 
-def script(name):
-    """The content of another script."""
-    loader = importlib.machinery.SourceFileLoader(name, str(ROOT / "scripts" / name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
-    loader.exec_module(module)
-    return module
-
-
 def write_surfaces(folder):
     """A plane of each generated surface and alpha, and the experiment that measures them, in a new folder."""
     folder.mkdir(parents=True)
-    template = script("real_maps").SCENE
     for name, words in GENERATED.items():
         surface, *parameters = words.split()
         run_footprint("surface", surface, "--resolution", RESOLUTION, *(word for p in parameters for word in ("--parameter", p)),
@@ -119,8 +109,8 @@ def write_surfaces(folder):
         for alpha in ALPHAS:
             scene = folder / f"{name}_{alpha}"
             scene.mkdir()
-            (scene / "scene.toml").write_text(template.format(
-                source="scripts/quick_model", package="footprint", name=scene.name, file=name, alpha=alpha, map=f"../{name}.exr",
+            (scene / "scene.toml").write_text(SCENE.format(
+                source="scripts/studies/quick_model.py", package="footprint", name=scene.name, file=name, alpha=alpha, map=f"../{name}.exr",
                 roughness=f"alpha = {alpha}", tiles=[1, 1], sky="", pixels=PIXELS,
                 distances=[2**level * PIXELS / RESOLUTION for level in LEVELS]), encoding="utf-8")
     (folder / "surfaces.toml").write_text(
@@ -160,7 +150,7 @@ def domain_of(maps):
     """Per level, the range of each logarithm over the maps for development."""
     found = numpy.array([inputs_of(scene.parent)[:, len(LEVELS):] for scene in sorted(maps.glob("development/*/scene.toml"))])
     if not len(found):
-        raise Missing(f"{maps}: has no scenes for development (scripts/real_maps {maps})")
+        raise Missing(f"{maps}: has no scenes for development (scripts/studies/real_maps.py {maps})")
     return numpy.stack([found.min(axis=0), found.max(axis=0)], axis=-1)
 
 

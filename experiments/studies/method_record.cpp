@@ -47,16 +47,8 @@ void set_error(Record& record, const ReferenceView& target, const Image& frame, 
   const std::optional<ErrorFigures> figures = compare_images(frame, target.reference.mean, exposure);
   if (!figures) return;
   const BoundPicture* const bound = target.bound && !record.history ? &*target.bound : nullptr;
-  record.error = RecordError{.normalized_color = figures->normalized_color,
-                             .relative_rmse = figures->relative_rmse,
-                             .relmse = figures->relmse,
-                             .psnr = figures->psnr,
-                             .energy_bias = figures->energy_bias,
-                             .luminance_distance = figures->luminance_distance,
-                             .luminances = figures->luminances,
-                             .reference_luminances = figures->reference_luminances,
-                             .noise_floor = target.noise_floor,
-                             .causes = causes_of(target, bound, frame, exposure)};
+  record.error = RecordError{*figures, target.noise_floor};
+  record.error->causes = causes_of(target, bound, frame, exposure);
   if (finest) {
     record.error->representation = normalized_color(*finest, target.reference.mean, exposure);
     record.error->filtering = normalized_color(frame, *finest, exposure);

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "results/report/command_reports.hpp"
+#include "results/report/figure_table.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
 #include "results/report/recommendation.hpp"
@@ -55,6 +56,19 @@ void fields(auto& archive, Is<GpuCost> auto& value) {
   archive("vertex_instructions", value.vertex_instructions);
   archive("compile_seconds", value.compile_seconds);
   archive("failure", value.failure);
+}
+
+void fields(auto& archive, Is<RecordError> auto& value) {
+  for (const Figure& figure : record_figures()) {
+    const auto add = [&](auto member) { archive(metric_name(figure), value.*member); };
+    if (figure.metric) std::visit(add, *figure.metric);
+  }
+  archive("luminances", value.luminances);
+  archive("reference_luminances", value.reference_luminances);
+  archive("noise_floor", value.noise_floor);
+  archive("representation", value.representation);
+  archive("filtering", value.filtering);
+  fields(archive, value.causes);
 }
 
 template <class Archive>

@@ -76,17 +76,9 @@ struct PixelCounts {
   std::optional<std::size_t> light;  ///< of those, that were lit by all of an environment; none without one
 };
 
-/// Errors of one picture; metrics.md. Absent figures are null in the JSON and "n/a" in tables.
-struct RecordError {
-  double normalized_color = 0;
-  double relative_rmse = 0;
-  double relmse = 0;
-  double psnr = 0;  ///< dB; infinite for equal pictures (null in the JSON)
-  double energy_bias = 0;
-  double luminance_distance = 0;
-  std::array<std::uint32_t, 32> luminances{},
-      reference_luminances{};         ///< pixels by luminance, in even bins from 0 to 1
-  std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
+/// Errors of one picture; metrics.md. Absent and infinite figures are null in the JSON and "n/a" in tables.
+struct RecordError : ErrorFigures {
+  std::optional<double> noise_floor = {};  ///< normalised colour error that the reference's own noise causes
   /// Normalised colour errors: of the method's finest level, supersampled, and against it. None: it was not drawn.
   std::optional<double> representation = {}, filtering = {};
   ErrorCauses causes = {};

@@ -45,14 +45,14 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
   record.distance = distance;
   record.width = record.height = 256;
   const double error = behaviour.error * std::pow(behaviour.growth, std::log2(distance));
-  record.error = RecordError{error,
-                             error * 4.1,
-                             error * 9.3,
-                             -20 * std::log10(error),
-                             -0.013 * distance,
-                             error * 0.4,
-                             example_luminances(12'345, static_cast<std::uint32_t>(1000 * error)),
-                             example_luminances(12'345, 40),
+  record.error = RecordError{{.normalized_color = error,
+                              .relative_rmse = error * 4.1,
+                              .relmse = error * 9.3,
+                              .psnr = -20 * std::log10(error),
+                              .energy_bias = -0.013 * distance,
+                              .luminance_distance = error * 0.4,
+                              .luminances = example_luminances(12'345, static_cast<std::uint32_t>(1000 * error)),
+                              .reference_luminances = example_luminances(12'345, 40)},
                              0.00071,
                              error * 0.22,
                              error * 0.91,

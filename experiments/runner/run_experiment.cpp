@@ -35,6 +35,9 @@ struct FurtherFigures {
   std::vector<QuantityFigure> quantities;
 };
 
+template <>
+inline constexpr bool is_private_document<FurtherFigures> = true;
+
 namespace {
 
 constexpr double not_estimated = std::numeric_limits<double>::quiet_NaN();

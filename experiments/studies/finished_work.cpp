@@ -19,6 +19,10 @@
 #include "results/report/figures.hpp"
 
 namespace footprint {
+
+template <>
+inline constexpr bool is_private_document<RunView> = true;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -57,6 +57,10 @@ namespace footprint {
 struct Provenance {
   std::string label, value;
 };
+void fields(auto& archive, Is<Provenance> auto& value) {
+  archive("label", value.label);
+  archive("value", value.value);
+}
 
 /// Backend, processor, scene, exposure, reference, what was supplied and what was left out: the head of every report.
 [[nodiscard]] std::vector<Provenance> provenance(const Results& results);

@@ -1,5 +1,6 @@
-// The fields of results.json, matrix.json, region.json, ndf.json and recommend.json that are not the members of a
-// structure as they are, listed once for the writer, the reader (json_archive.hpp) and the schemas of docs/.
+// The fields of results.json, matrix.json, region.json, ndf.json and recommend.json that are not listed beside their
+// structure: those of structures of the renderer, and those that differ from the members. Listed once for the writer,
+// the reader (json_archive.hpp) and the schemas of docs/.
 #pragma once
 
 #include <charconv>
@@ -14,13 +15,6 @@
 
 namespace footprint {
 
-template <>
-inline constexpr bool is_spread<ErrorCauses> = true;
-template <>
-inline constexpr bool is_spread<FlickerCauses> = true;
-template <>
-inline constexpr bool is_spread<Choice> = true;
-
 /// Reads a number of samples and its bound ("<1", ">64", "" or "n/a") as equivalent_spp and equivalent_bound write
 /// them.
 [[nodiscard]] inline std::optional<EquivalentSamples> equivalent_from(std::optional<double> spp,
@@ -30,6 +24,18 @@ inline constexpr bool is_spread<Choice> = true;
   const char* last = bound.data() + bound.size();
   if (bound.size() < 2 || std::from_chars(bound.data() + 1, last, end.spp).ptr != last) return {};
   return end;
+}
+
+void fields(auto& archive, Is<HistorySettings> auto& value) {
+  archive("frames", value.frames);
+  archive("alpha", value.alpha);
+  archive("clamp", value.clamp);
+  archive("jitter", value.jitter);
+}
+
+void fields(auto& archive, Is<FlickerFigures> auto& value) {
+  archive("mean", value.mean);
+  archive("p99", value.p99);
 }
 
 void fields(auto& archive, Is<GpuCost> auto& value) {

@@ -53,9 +53,7 @@ struct RecommendArguments : RunArguments {
         command, output,
         "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
         "interrupted run resumes");
-    auto* again =
-        command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
-    quick->excludes(folder)->excludes(again);
+    quick->excludes(folder)->excludes(command.get_option("--fresh"));
   }
 
   std::string filters = "trilinear,anisotropic:8,shaded:2";
@@ -64,7 +62,6 @@ struct RecommendArguments : RunArguments {
   bool exhaustive = false;
   bool predicted = false;  // by a model, without a measurement
   bool json = false;
-  bool fresh = false;
   std::string output = "out";
 };
 
@@ -130,7 +127,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
   if (arguments.predicted) return run_quick_command(arguments, settings);
   warn_without_captions();
   ProgressDisplay display(progress_style(arguments.quiet));
-  const FinishedWork finished = finished_work_of(settings.run, arguments.output, arguments.fresh);
+  const FinishedWork finished = finished_work_of(settings.run, arguments.output);
   const auto [result, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{
         .results =

@@ -44,7 +44,8 @@ std::vector<OtherReference> errors_against_others(const ReferenceView& target, c
 
 void set_error(Record& record, const ReferenceView& target, const Image& frame, const std::optional<Image>& finest,
                float exposure) {
-  const std::optional<ErrorFigures> figures = compare_images(frame, target.reference.mean, exposure);
+  const std::optional<ErrorFigures> figures =
+      compare_images(frame, target.reference.mean, exposure, target.parts.interior);
   if (!figures) return;
   const BoundPicture* const bound = target.bound && !record.history ? &*target.bound : nullptr;
   record.error = RecordError{*figures, target.noise_floor};

@@ -51,6 +51,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
                               .psnr = -20 * std::log10(error),
                               .energy_bias = -0.013 * distance,
                               .luminance_distance = error * 0.4,
+                              .smape = error * 1.3,
                               .luminances = example_luminances(12'345, static_cast<std::uint32_t>(1000 * error)),
                               .reference_luminances = example_luminances(12'345, 40)},
                              0.00071,

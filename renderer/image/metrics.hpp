@@ -22,6 +22,7 @@ struct ErrorFigures {
   double energy_bias = 0;         ///< (sum x - sum r) / sum r on linear radiance, signed
   double luminance_distance = 0;  ///< mean of |y - y_ref| of exposed clamped luminances, each image's sorted on its own
   std::optional<double> smape = {};  ///< mean of |x - r| / (|x| + |r|) on linear radiance; none: no interior pixel
+  std::optional<double> ssim = {};   ///< Wang 2004: mean structural similarity of displayed luminances (ssim.hpp)
   LuminanceHistogram luminances{}, reference_luminances{};  ///< of the object's pixels
 };
 

@@ -52,6 +52,7 @@ Record example_record(const Results& results, const Behaviour& behaviour, double
                               .energy_bias = -0.013 * distance,
                               .luminance_distance = error * 0.4,
                               .smape = error * 1.3,
+                              .ssim = 1 - error * 2.1,
                               .luminances = example_luminances(12'345, static_cast<std::uint32_t>(1000 * error)),
                               .reference_luminances = example_luminances(12'345, 40)},
                              0.00071,

@@ -34,14 +34,10 @@ struct AnimateArguments : RunArguments {
     add_output_folder(command, output, "Folder for index.html, results.json, results.csv, table.md, images/, kept/");
     add_value(command, "--shard", shard, "I/N",
               "Render part I of N of the frames into the output folder, for `footprint merge`");
-    command.add_flag("--video", video, "Also make images/film.mp4 with ffmpeg: all methods side by side");
-    command.add_flag("--fresh", fresh, "Render every frame again: discard the finished ones");
   }
 
   std::string output = "out";
   std::string shard;  // empty: all frames
-  bool video = false;
-  bool fresh = false;
 };
 
 // Nothing is measured but what frames differ by.
@@ -54,11 +50,11 @@ RunSettings settings_of(const AnimateArguments& arguments) {
 }
 
 void animate_part(const AnimateArguments& arguments, const RunSettings& settings) {
-  if (arguments.video)
+  if (settings.output.video)
     throw Error(ErrorKind::usage, "--video", "a film cannot be made of a part",
                 "merge the parts, then run this without --shard over the merged folder: it reuses the frames");
   const Shard shard = parse_shard(arguments.shard);
-  const FinishedWork finished = finished_work_of(settings, arguments.output, arguments.fresh);
+  const FinishedWork finished = finished_work_of(settings, arguments.output);
   make_part(shard, arguments.output, finished, [&]() -> PartFile {
     ProgressDisplay display(progress_style(arguments.quiet));
     const OutputFolder scratch(arguments.output);  // never moved to its place
@@ -138,13 +134,13 @@ std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs
 void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = settings_of(arguments);
   if (!arguments.shard.empty()) return animate_part(arguments, settings);
-  const fs::path ffmpeg = arguments.video ? find_ffmpeg() : fs::path();
-  const FinishedWork finished = finished_work_of(settings, arguments.output, arguments.fresh);
+  const fs::path ffmpeg = settings.output.video ? find_ffmpeg() : fs::path();
+  const FinishedWork finished = finished_work_of(settings, arguments.output);
   ProgressDisplay display(progress_style(arguments.quiet));
   write_and_print_animation(arguments.output, [&](const RunFolder& folder) {
     ProgressParts parts(display.callback(), 20);
     Results animation = run_compare(settings, folder, parts.next(19, ""), {.finished = &finished});
-    if (arguments.video) {
+    if (settings.output.video) {
       folder.attempt(film_file,
                      [&] { animation.film = make_film(ffmpeg, animation, folder.path(), parts.next(1, "")); });
     }

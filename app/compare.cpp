@@ -17,13 +17,10 @@ struct CompareArguments : RunArguments {
   explicit CompareArguments(CLI::App& command) : RunArguments(command) {
     add_output_folder(command, output, "Folder for results.json, results.csv, table.md, index.html, images/");
     command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
-    command.add_flag("-v,--verbose", verbose,
-                     "Print all of table.md: errors by cause, pairs of methods, supersampling, bakes");
   }
 
   std::string output = "out";
   std::string timing_file;  // not empty: this is a process that only takes times
-  bool verbose = false;
 };
 
 // Everything is written to a hidden folder and moved to its place at the end. The hidden folder has a page after the
@@ -62,7 +59,7 @@ void run_compare_command(const CompareArguments& arguments) {
     return compare_into(folder, settings, arguments.quiet, display.callback());
   });
   display.finish();
-  print_results(results, path, arguments.verbose);
+  print_results(results, path, settings.output.verbose);
   throw_first({row_failures(results), lost});
 }
 

@@ -58,8 +58,8 @@ struct RequestedExperiments {
 void write_reuse(const FinishedWork& finished, bool quiet);
 
 /// The finished work of a run with these settings below its output folder.
-/// fresh: discards that of earlier runs. Errors (machine): no OpenGL.
-[[nodiscard]] FinishedWork finished_work_of(const RunSettings& run, const std::filesystem::path& output, bool fresh);
+/// run: `output.fresh` discards that of earlier runs. Errors (machine): no OpenGL.
+[[nodiscard]] FinishedWork finished_work_of(const RunSettings& run, const std::filesystem::path& output);
 
 /// The receivers of results.
 struct RunListener {

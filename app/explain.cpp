@@ -151,12 +151,19 @@ Json passes_of(const Stage& stage) {
   return passes;
 }
 
+Json choices_of(const Scene& scene) {
+  Json choices = Json::array();
+  for (const auto& [kind, names, taken] : scene.choices)
+    choices.push_back({{"kind", kind}, {"names", names}, {"taken", to_json_value(taken)}});
+  return choices;
+}
+
 Json explain(const ExplainArguments& arguments, const Progress& progress) {
   const RunSettings run = arguments.settings();
   ProgressParts parts(progress, arguments.cost ? 3 : 1);
   const Stage stage(load_scene(run.scene, run.scene_library, run.overrides), run, parts.next(1, ""));
   const BakedMethod& baked = stage.methods().front().baked();
-  Json out{{"choices", to_json_value(stage.scene().choices)},
+  Json out{{"choices", choices_of(stage.scene())},
            {"supplied", stage.scene().defaults},
            {"warnings", stage.scene().warnings}};
   for (const auto& [effect, on, reason] : stage.decisions())

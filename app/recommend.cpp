@@ -55,9 +55,7 @@ struct RecommendArguments : RunArguments {
         command, output,
         "Folder for index.html, recommend.json, the full runs, and kept/ with the finished work, from which an "
         "interrupted run resumes");
-    auto* again =
-        command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
-    quick->excludes(folder)->excludes(again);
+    quick->excludes(folder)->excludes(command.get_option("--fresh"));
   }
 
   std::string filters = "trilinear,anisotropic:8,shaded:2";
@@ -66,7 +64,6 @@ struct RecommendArguments : RunArguments {
   bool exhaustive = false;
   bool predicted = false;  // by a model, without a measurement
   bool json = false;
-  bool fresh = false;
   std::string output = "out";
 };
 
@@ -133,7 +130,7 @@ void run_recommend_command(const RecommendArguments& arguments) {
   if (!settings.run.gpus.empty()) require_compilers("--max-cost");
   warn_without_captions();
   ProgressDisplay display(progress_style(arguments.quiet));
-  const FinishedWork finished = finished_work_of(settings.run, arguments.output, arguments.fresh);
+  const FinishedWork finished = finished_work_of(settings.run, arguments.output);
   const auto [result, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{
         .results =

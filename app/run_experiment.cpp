@@ -64,7 +64,6 @@ struct ExperimentArguments : RunArguments {
     command.add_flag(
         "--region", region,
         "Also judge the claims at every setting of the experiment's [region]; a map of where they are true");
-    command.add_flag("--fresh", fresh, "Measure everything again: discard the finished work in the output folder");
     command.add_option(timing_file_option, timing_file)->group("");  // no part of the help
     command.add_option(timing_member_option, timing_member)->group("");
     if (command.get_name() == "check") {
@@ -88,7 +87,6 @@ struct ExperimentArguments : RunArguments {
   CheckReports reports;  // of `check`
   bool all = false;      // in the place of one experiment
   bool quick = false;
-  bool fresh = false;
   bool region = false;        // at every setting that the paper leaves open
   bool wide = false;          // hard_cases: every storage in every case, and those that take long
   std::string timing_file;    // not empty: this is a process that only takes times
@@ -120,7 +118,7 @@ void take_times(const ExperimentArguments& arguments) {
 std::optional<Error> run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const RequestedExperiments experiments = requested(arguments);
   warn_without_captions();
-  const FinishedWork finished = finished_work_of(experiments.first().run, arguments.output, arguments.fresh);
+  const FinishedWork finished = finished_work_of(experiments.first().run, arguments.output);
   std::optional<Error> failed = run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
   write_reuse(finished, arguments.quiet);
   return failed;
@@ -130,7 +128,7 @@ void run_shard(const ExperimentArguments& arguments) {
   const Shard shard = parse_shard(arguments.shard);
   const RequestedExperiments experiments = requested(arguments);
   const RunSettings& run = experiments.first().run;
-  const FinishedWork finished = finished_work_of(run, arguments.output, arguments.fresh);
+  const FinishedWork finished = finished_work_of(run, arguments.output);
   make_part(shard, arguments.output, finished, [&]() -> PartFile {
     run_part(experiments, shard, arguments.output, finished, arguments.quiet);
     return {.kind = arguments.region ? PartKind::region : PartKind::experiment,

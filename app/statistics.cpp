@@ -142,7 +142,12 @@ std::string json_of(const Statistics& statistics) {
             {"mean_alpha", to_json_value(statistics.mean_alpha)},
             {"levels", Json::array()}};
   for (std::size_t i = 0; i < statistics.levels.size(); ++i) {
-    json["levels"].push_back(to_json_value(statistics.levels[i]));
+    const auto& [level, resultant, variance, anisotropy, tails] = statistics.levels[i];
+    json["levels"].push_back({{"level", level},
+                              {"resultant", resultant},
+                              {"variance", variance},
+                              {"anisotropy", anisotropy},
+                              {"tails", tails}});
     if (!statistics.lobe_errors.empty()) json["levels"].back()["lobe_errors"] = statistics.lobe_errors[i];
   }
   return json.dump(2) + "\n";

@@ -49,7 +49,7 @@ void RunArguments::apply(RunSettings& run) const {
   for (const auto& [setting, option] : added_) {
     std::vector<std::string> texts = option->results();
     if (texts.empty() && !setting->start.empty()) texts.emplace_back(setting->start);
-    for (const std::string& text : texts) setting->type.read_text(run, option_name(*setting), text);
+    for (const std::string& text : texts) setting->type.read(run, option_name(*setting), text);
   }
 }
 

@@ -28,7 +28,7 @@ const Setting& setting_of(std::string_view key) {
 std::string written_by_setting(const std::string& key, const std::string& value) {
   RunSettings run;
   const Setting& setting = setting_of(key);
-  setting.type.read_text(run, "", value);
+  setting.type.read(run, "", value);
   return setting.type.text(run);
 }
 
@@ -61,7 +61,7 @@ std::vector<std::string> axis_keys(std::string_view table) {
 }
 
 void set_value(Experiment& experiment, const std::string& key, const std::string& value) {
-  setting_of(key).type.read_text(experiment.run, key, value);
+  setting_of(key).type.read(experiment.run, key, value);
   if (key == "scene") experiment.run.scene = scene_of_file(experiment.file, value);
 }
 

@@ -153,13 +153,14 @@ class Parser {
     return node;
   }
 
-  // The row of the table with that name, which starts at `start`.
+  // The function with that name or alias, which starts at `start`.
   const FigureFunction& function(const std::string& name, std::size_t start) {
-    std::vector<std::string> known;
-    for (const FigureFunction& row : figure_functions()) {
-      if (row.name == name) return row;
-      known.emplace_back(row.name);
+    const std::span<const FigureFunction> all = figure_functions();
+    for (const auto spelling : {&FigureFunction::name, &FigureFunction::alias}) {
+      if (const auto found = std::ranges::find(all, name, spelling); found != all.end()) return *found;
     }
+    std::vector<std::string> known;
+    for (const FigureFunction& row : all) known.emplace_back(row.name);
     known.emplace_back("abs");
     at_ = start;
     fail(fmt::format("`{:.80}` is not a function", name), suggestion(name, known));

@@ -139,7 +139,7 @@ struct Sample {
   std::string node{};                   ///< of a time
 };
 
-/// A function of a method's figures: a row of the table.
+/// A function of a method's figures.
 struct FigureFunction {
   std::string_view name;
   std::vector<Selector> selectors;
@@ -149,9 +149,11 @@ struct FigureFunction {
   std::function<std::vector<Sample>(const Measure& measure, const std::string& method, const Results& run)> samples;
   std::string_view absent = "no record has this figure";  ///< the problem if no record has it
   std::string_view none = "the run has no such record";   ///< the problem if there is no sample
+  std::string_view alias = name;                          ///< another name that expressions may use
+  std::size_t first_frame = 0;                            ///< frames before it have no figure
 };
 
-/// The table, in the order of the documentation.
+/// All functions, in the order of the documentation.
 [[nodiscard]] std::span<const FigureFunction> figure_functions();
 
 /// Refuses (usage, with the measure as the place) what a run of the experiment would have no figure for: known before

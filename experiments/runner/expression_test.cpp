@@ -165,6 +165,23 @@ TEST(Expression, AtTheNoiseFloorIsReported) {
   EXPECT_FALSE(Expression("error(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
 }
 
+TEST(Expression, FlickerHasANoiseFloorToo) {
+  Results results = two_frames();
+  for (Record& record : results.records) record.flicker = Flicker{.mean = 0.001, .p99 = 0.1, .noise_floor = 0.002};
+  EXPECT_TRUE(Expression("flicker(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
+  EXPECT_FALSE(Expression("flicker_p99(a)", "").evaluate(only(results)).calls.at(0).at_noise_floor);
+}
+
+// A function's own name comes before the name of a column: the column `equivalent_spp` has no figure beyond the curve.
+TEST(Expression, AFigureIsAlsoCalledByTheNameOfItsColumn) {
+  EXPECT_EQ(Expression("edges_error(a)", "").text(), "edge_error(a)");
+  EXPECT_EQ(Expression("psnr_db(a) - normalized_color_error(b, frame=1)", "").text(), "psnr(a) - error(b, frame=1)");
+  EXPECT_EQ(value_of("normalized_color_error(a)"), value_of("error(a)"));
+  EXPECT_EQ(Expression("equivalent_spp(a)", "").text(), "equivalent_spp(a)");
+  EXPECT_DOUBLE_EQ(value_of("equivalent_spp(a)"), 64);
+  EXPECT_NE(complaint("scene(a)").find("is not a function"), std::string::npos) << "a column of words";
+}
+
 TEST(Expression, TheStarIsAMethod) {
   EXPECT_EQ(Expression("abs(error(*) - error(a))", "").with_method("b").text(), "abs(error(b) - error(a))");
 }

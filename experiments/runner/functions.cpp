@@ -1,4 +1,5 @@
-// The table of functions: for each the selectors that it takes, what the experiment must have, and its figure of a run.
+// The functions of expressions: those of the figures of records (figure_table.hpp), and a table of others. For each the
+// selectors that it takes, what the experiment must have, and its figure of a run.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,6 +17,7 @@
 #include "methods/registry.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "results/report/figure_table.hpp"
 #include "results/report/figures.hpp"
 
 namespace footprint {
@@ -89,7 +91,7 @@ void a_quantity(const Measure& measure, const Experiment& experiment) {
 
 // ---- figures
 
-using Figure = std::optional<double>;
+using Number = std::optional<double>;
 using Samples = decltype(FigureFunction::samples);
 
 // Whether a measure of a method is over a record, or over another thing that was measured.
@@ -130,42 +132,24 @@ Samples over(std::vector<Thing> Results::*things, SampleOf sample_of) {
 
 Samples over_records(auto sample_of) { return over(&Results::records, sample_of); }
 
-// A time, which belongs to the machine that it was taken on.
-Samples over_times(auto time) {
-  return over_records([time](const Measure& /*measure*/, const Record& r) {
-    return Sample{.value = std::invoke(time, r), .node = r.node};
-  });
+Sample sample_with_floor(const Number& value, const Number& floor) {
+  return {.value = value, .at_noise_floor = value && floor && *value <= *floor, .noise_floor = floor};
 }
 
-template <class Value>
-Samples over_errors(Value RecordError::*member) {
-  return over_records([member](const Record& r) { return r.error ? Figure((*r.error).*member) : Figure(); });
-}
-
-Samples over_causes(std::optional<double> ErrorCauses::*member) {
-  return over_records([member](const Record& r) { return r.error ? r.error->causes.*member : Figure(); });
-}
-
-// Against the run's own reference, or the one of so many samples.
-Sample error_sample(const Measure& measure, const Record& record) {
-  const std::optional<double> spp = measure.number(Selector::spp);
-  if (!spp) {
-    return {.value = record.error ? Figure(record.error->normalized_color) : Figure(),
-            .at_noise_floor = at_noise_floor(record),
-            .noise_floor = record.error ? record.error->noise_floor : Figure()};
-  }
-  const auto other = std::ranges::find(record.other_references, *spp, &OtherReference::spp);
+// Against the reference of `spp` samples.
+Sample sample_of_other(double spp, const Record& record) {
+  const auto other = std::ranges::find(record.other_references, spp, &OtherReference::spp);
   if (other == record.other_references.end()) return {};
-  return {.value = other->normalized_color,
-          .at_noise_floor = other->noise_floor && other->normalized_color <= *other->noise_floor,
-          .noise_floor = other->noise_floor};
+  return sample_with_floor(other->normalized_color, other->noise_floor);
 }
 
-Sample shading_sample(const Measure& /*measure*/, const Record& record) {
-  if (!record.error) return {};
-  return {.value = record.error->causes.shading,
-          .at_noise_floor = shading_at_noise_floor(record),
-          .noise_floor = record.error->causes.shading_floor};
+Samples samples_of(const Figure& figure) {
+  return over_records([&figure](const Measure& measure, const Record& record) {
+    if (const Number spp = measure.number(Selector::spp)) return sample_of_other(*spp, record);
+    Sample sample = sample_with_floor(figure.of(record), figure.noise == nullptr ? std::nullopt : figure.noise(record));
+    if (figure.is_of_machine) sample.node = record.node;
+    return sample;
+  });
 }
 
 // A figure of the estimate on a GPU.
@@ -181,70 +165,46 @@ Samples over_gpu(Value GpuCost::*member) {
   });
 }
 
-double build_ms(const Record& record) { return record.frame_build_ms.value_or(0.0); }
-
-// A frame without what is rebuilt in it, whether or not the timed frames rebuilt it.
-double shading_ms(const Record& record) {
-  const bool timed = record.frame_build == BuildTiming::every_frame;
-  return record.frame_ms.median - (timed ? build_ms(record) : 0.0);
-}
-
 Sample supersampling_sample(const Measure& /*measure*/, const SupersamplingPoint& point) {
   return {.value = point.ms, .node = point.node};
 }
 
+// The function of a figure of records.
+FigureFunction function_of(const Figure& figure) {
+  using enum Selector;
+  FigureFunction function{.name = figure.call.name,
+                          .selectors = {distance, frame, scene, size, filter, seed},
+                          .needs = nothing,
+                          .samples = samples_of(figure),
+                          .absent = figure.call.absent,
+                          .alias = figure.key};
+  if (figure.call.needs == FigureNeeds::other_reference) {
+    function.selectors.insert(function.selectors.begin() + 2, spp);
+    function.needs = its_reference;
+  } else if (figure.call.needs == FigureNeeds::frame_before) {
+    function.needs = a_zoom;
+    function.first_frame = 1;
+  }
+  return function;
+}
+
+// The functions of other things than records.
 std::vector<FigureFunction> function_table() {
   using enum Selector;
-  const std::vector<Selector> records{distance, frame, scene, size, filter, seed};
   const std::vector<Selector> on_gpu{distance, frame, scene, size, filter, seed, gpu};
   const std::vector<Selector> of_ndf{footprint, scene, size, seed};
-  constexpr const char *no_bound = "the bound was not drawn", *no_estimate = "no record has an estimate for that GPU",
+  constexpr const char *no_estimate = "no record has an estimate for that GPU",
                        *no_footprint = "no such footprint was looked into";
-  return {{"error", {distance, frame, spp, scene, size, filter, seed}, its_reference, over_records(error_sample)},
-          {"relative_rmse", records, nothing, over_errors(&RecordError::relative_rmse)},
-          {"relmse", records, nothing, over_errors(&RecordError::relmse)},
-          {"psnr", records, nothing, over_errors(&RecordError::psnr)},
-          {"energy_bias", records, nothing, over_errors(&RecordError::energy_bias)},
-          {"luminance_distance", records, nothing, over_errors(&RecordError::luminance_distance)},
-          {"representation", records, nothing, over_errors(&RecordError::representation)},
-          {"filtering", records, nothing, over_errors(&RecordError::filtering)},
-          {"shading_error", records, nothing, over_records(shading_sample), "no pixel is interior"},
-          {"edge_error", records, nothing, over_causes(&ErrorCauses::edges), "no pixel has an edge"},
-          {"filter_error", records, nothing, over_causes(&ErrorCauses::filter), no_bound},
-          {"method_error", records, nothing, over_causes(&ErrorCauses::method), no_bound},
-          {"light_error", records, nothing, over_causes(&ErrorCauses::light), "there is no environment"},
-          {"interior_pixels", records, nothing,
-           over_records([](const Record& r) { return static_cast<double>(r.pixels.interior); })},
-          {"noise_floor", records, nothing, over_errors(&RecordError::noise_floor)},
-          {"equivalent_spp", records, nothing,
-           over_records([](const Record& r) { return r.equivalent ? Figure(r.equivalent->spp) : Figure(); })},
-          {"flicker", records, a_zoom, over_records([](const Measure& /*measure*/, const Record& r) {
-             return r.flicker ? Sample{.value = r.flicker->mean, .noise_floor = r.flicker->noise_floor} : Sample{};
-           })},
-          {"flicker_p99", records, a_zoom,
-           over_records([](const Record& r) { return r.flicker ? Figure(r.flicker->p99) : Figure(); })},
-          {"time", records, nothing, over_times([](const Record& r) { return r.frame_ms.median; })},
-          {"fps", records, nothing, over_times(&Record::fps)},
-          {"build", records, nothing, over_times(&Record::frame_build_ms)},
-          {"shading", records, nothing, over_times(shading_ms)},
-          {"total", records, nothing, over_times([](const Record& r) { return shading_ms(r) + build_ms(r); })},
-          {"supersampling_time",
+  return {{"supersampling_time",
            {distance, spp, scene, size, filter, seed},
            a_timed_count,
            over(&Results::supersampling, supersampling_sample),
            "",
            "no such count of samples was timed"},
-          {"ratio", records, nothing, over_records([](const Record& r) { return r.ratio_to_direct.median; })},
           {"gpu_cost", on_gpu, a_gpu, over_gpu(&GpuCost::cost_ns), no_estimate},
           {"gpu_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::instructions), no_estimate},
           {"gpu_vertex_instructions", on_gpu, a_gpu, over_gpu(&GpuCost::vertex_instructions), no_estimate},
           {"gpu_texture_reads", on_gpu, a_gpu, over_gpu(&GpuCost::texture_reads), no_estimate},
-          {"precompute", records, nothing,
-           over_records([](const Record& r) { return r.precompute_cached ? Figure() : Figure(r.precompute_seconds); }),
-           "the bake came from the cache (give --no-cache)"},
-          {"bytes", records, nothing,
-           over_records([](const Record& r) { return static_cast<double>(r.precompute_bytes); })},
-          {"bytes_per_texel", records, nothing, over_records(&Record::precompute_bytes_per_texel)},
           {"ndf_l2", of_ndf, a_footprint, over(&Results::ndf, &FootprintNdf::l2), "", no_footprint},
           {"ndf_energy", of_ndf, a_footprint, over(&Results::ndf, &FootprintNdf::energy), "", no_footprint},
           {"ndf_peak", of_ndf, a_footprint, over(&Results::ndf, &FootprintNdf::peak), "", no_footprint},
@@ -254,6 +214,15 @@ std::vector<FigureFunction> function_table() {
            over(&Results::quantities, &QuantityFigure::value),
            "",
            "the run has no such figure"}};
+}
+
+std::vector<FigureFunction> every_function() {
+  std::vector<FigureFunction> table;
+  for (const Figure& figure : record_figures()) {
+    if (!figure.call.name.empty()) table.push_back(function_of(figure));
+  }
+  std::ranges::move(function_table(), std::back_inserter(table));
+  return table;
 }
 
 // Those without a value do not count.
@@ -305,7 +274,7 @@ std::string mixed_hosts_message(const std::set<std::string>& nodes) {
 }
 
 std::span<const FigureFunction> figure_functions() {
-  static const std::vector<FigureFunction> table = function_table();
+  static const std::vector<FigureFunction> table = every_function();
   return table;
 }
 

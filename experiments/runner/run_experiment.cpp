@@ -35,6 +35,9 @@ struct FurtherFigures {
   std::vector<QuantityFigure> quantities;
 };
 
+template <>
+inline constexpr bool is_private_document<FurtherFigures> = true;
+
 namespace {
 
 constexpr double not_estimated = std::numeric_limits<double>::quiet_NaN();
@@ -347,11 +350,10 @@ void NoiseGuard::check(const Threshold& threshold) const {
 }
 
 std::size_t NoiseGuard::count_of(const Measure& measure) const {
-  const std::size_t first = measure.function->name.starts_with("flicker") ? 1 : 0;  // the first frame has none
   std::size_t count = 0;
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!selects(measure, members_[m].coordinates)) continue;
-    for (std::size_t i = first; i < distances_[m].size(); ++i) {
+    for (std::size_t i = measure.function->first_frame; i < distances_[m].size(); ++i) {
       const bool is_meant =
           measure.takes(Selector::distance, distances_[m][i]) && measure.takes(Selector::frame, static_cast<double>(i));
       count += is_meant ? 1 : 0;

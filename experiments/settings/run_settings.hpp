@@ -129,6 +129,13 @@ struct BackendSettings {
   int tile = 0;  ///< side of the tiles in pixels; 0: as large as fits
 };
 
+/// What a run prints and writes, and what it discards before.
+struct OutputSettings {
+  bool verbose = false;  ///< prints all of table.md
+  bool video = false;    ///< writes the film of an animation
+  bool fresh = false;    ///< discards finished work of earlier runs
+};
+
 /// All settings of a run; each study uses those that concern it. setting.hpp defines how users write them.
 struct RunSettings {
   std::string scene;           ///< as load_scene takes it
@@ -148,6 +155,7 @@ struct RunSettings {
   TimingSettings timing;
   std::vector<std::string> gpus;  ///< whose cost is estimated, by name
   BackendSettings backend;
+  OutputSettings output;
   std::optional<std::filesystem::path> cache;  ///< folder of cached bakes; none: they are not cached
 };
 

@@ -3,7 +3,6 @@
 #include "experiments/settings/setting.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -15,18 +14,31 @@
 namespace footprint {
 namespace {
 
-constexpr double largest_exact = 9007199254740992.0;  // 2^53: TOML's numbers are read as doubles
+// A number, or true and false of a switch.
+SettingInput single_input(const TomlTable& table, std::string_view key, const SettingType& type) {
+  const TomlScalar value = *table.scalar(key);
+  if (std::holds_alternative<bool>(value) && !type.is_switch)
+    throw table.error_at(key, "must be a number", "write it without quotes");
+  return SettingInput(value);
+}
 
-// A key's value as an option takes it.
-std::string text_at(const TomlTable& table, std::string_view key, const SettingType& type) {
-  if (table.is_word(key)) return *table.word(key);
-  if (type.separator == 0) return fmt::format("{}", *table.number(key, {-largest_exact, largest_exact}));
-  const std::vector<std::string> parts = *table.words_or_numbers(key);
-  for (const std::string& part : parts) {
-    if (part.find(type.separator) != std::string::npos)
-      throw table.error_at(key, fmt::format("has `{:.80}`", part), "write each value on its own");
+SettingInput listed_input(const TomlTable& table, std::string_view key, char separator) {
+  std::vector<TomlScalar> parts = *table.scalars(key);
+  for (const TomlScalar& part : parts) {
+    const auto* const word = std::get_if<std::string>(&part);
+    if (word != nullptr && word->find(separator) != std::string::npos)
+      throw table.error_at(key, fmt::format("has `{:.80}`", *word), "write each value on its own");
   }
-  return fmt::format("{}", fmt::join(parts, std::string(1, type.separator)));
+  return SettingInput(std::move(parts));
+}
+
+// The value of a key. A list may be written as a text too.
+SettingInput input_at(const TomlTable& table, std::string_view key, const SettingType& type) {
+  if (!table.is_word(key))
+    return type.separator == 0 ? single_input(table, key, type) : listed_input(table, key, type.separator);
+  std::string word = *table.word(key);
+  if (word.empty()) throw table.error_at(key, "is empty", "fill it in");
+  return word;
 }
 
 // The setting of histories of that key, which is an option of methods too; null: there is none.
@@ -37,7 +49,7 @@ const Setting* history_setting(std::string_view key) {
 }
 
 void read_option(RunSettings& run, const MethodSpec& method, const std::string& name, const std::string& value) {
-  history_setting(name)->type.read_text(run, fmt::format("{} of method {}", name, method.name), value);
+  history_setting(name)->type.read(run, fmt::format("{} of method {}", name, method.name), value);
 }
 
 // Moves the options of its history out of those of its maps, whose names are the method's own.
@@ -61,7 +73,11 @@ void take_known(std::span<MethodSpec> methods, const std::filesystem::path& fold
 
 }  // namespace
 
-std::string_view option_name(const Setting& setting) { return setting.option.substr(0, setting.option.find(',')); }
+std::string_view option_name(const Setting& setting) {
+  std::string_view names = setting.option;
+  if (names.starts_with('-') && !names.starts_with("--")) names.remove_prefix(names.find(',') + 1);
+  return names.substr(0, names.find(','));
+}
 
 std::string default_text(const Setting& setting) {
   return setting.start.empty() ? setting.type.text({}) : std::string(setting.start);
@@ -81,9 +97,8 @@ void read_settings(const TomlTable& table, std::string_view name, RunSettings& r
     const std::string_view key = setting.key.name;
     if (key.empty() || setting.key.table != name) continue;
     if (table.has(key)) {
-      const std::string text = text_at(table, key, setting.type);
-      if (text.empty()) throw table.error_at(key, "is empty", "fill it in");
-      at_key(table, key, [&] { setting.type.read_text(run, "", text); });
+      const SettingInput input = input_at(table, key, setting.type);
+      at_key(table, key, [&] { setting.type.read(run, "", input); });
     } else if (setting.required && std::ranges::find(given, key) == given.end()) {
       refuse_missing(table, key, experiments_document);
     }

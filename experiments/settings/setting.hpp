@@ -10,24 +10,26 @@
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "experiments/settings/setting_input.hpp"
 #include "methods/registry.hpp"
 
 namespace footprint {
 
 class TomlTable;
 
-/// The text form of a value, and its place in a RunSettings; setting_types.hpp makes them.
+/// The form of a value, and its place in a RunSettings; setting_types.hpp makes them.
 struct SettingType {
   std::string word{};        ///< placeholder of the value in the help: "N", "WIDTHxHEIGHT"; empty: a flag
   std::string takes{};       ///< the values of an option: "1 to 4096"; empty if the help says it
   std::string file_takes{};  ///< the values of a key in an experiment's file; empty: as `takes`
   /// Reads a value into `run`. `option` is the option's name, or empty for a key of a file. Errors (usage) name it.
-  std::function<void(RunSettings& run, std::string_view option, const std::string& text)> read_text;
+  std::function<void(RunSettings& run, std::string_view option, const SettingInput& input)> read;
   /// The value as an option takes it; empty: there is none.
   std::function<std::string(RunSettings run)> text;
   /// The separator in the text of a list, which is an array in a file; 0: the value is not a list.
   char separator = 0;
-  bool repeats = false;  ///< the option may be given several times, each with a value to add
+  bool is_switch = false;  ///< a file may write true or false
+  bool repeats = false;    ///< the option may be given several times, each with a value to add
 };
 
 /// A key of an experiment's file.
@@ -56,7 +58,8 @@ inline constexpr std::string_view experiments_document = "docs/reference/experim
 /// Every setting, in the order of the help and of the documents.
 [[nodiscard]] std::span<const Setting> run_settings();
 
-/// The name of a setting's option: "--method" of "--method,--methods".
+/// The long name of a setting's option, the first of several: "--method" of "--method,--methods", "--verbose" of
+/// "-v,--verbose".
 [[nodiscard]] std::string_view option_name(const Setting& setting);
 
 /// The default value, as an option takes it; empty: no value.

@@ -1,4 +1,4 @@
-// The types of a run's settings, for their table alone: the texts that each takes, and the field that the value goes
+// The types of a run's settings, for their table alone: the values that each takes, and the field that the value goes
 // to.
 #pragma once
 
@@ -36,8 +36,8 @@ using MethodParser = std::vector<MethodSpec> (*)(const std::string& text, const 
 inline constexpr double least_noise = 1e-6, most_noise = 1.0;
 inline constexpr double smallest_exposure = 1e-30, largest_exposure = 1e30;
 
-inline Error not_valid(std::string_view option, std::string_view text, std::string_view why, std::string hint) {
-  return {ErrorKind::usage, std::string(option), fmt::format("`{}` {}", text, why), std::move(hint)};
+inline Error not_valid(std::string_view option, const SettingInput& input, std::string_view why, std::string hint) {
+  return {ErrorKind::usage, std::string(option), fmt::format("`{}` {}", input.text(), why), std::move(hint)};
 }
 
 template <typename Number>
@@ -47,50 +47,58 @@ std::string range_text(Number low, Number high) {
 }
 
 template <typename Number>
-Number parse_whole_number(Number low, Number high, std::string_view option, std::string_view text) {
-  const auto number = parse_whole_of<Number>(text);
+Number parse_whole_number(Number low, Number high, std::string_view option, const SettingInput& input) {
+  const std::optional<Number> number = input.whole<Number>();
   if (number && *number >= low && *number <= high) return *number;
-  throw not_valid(option, text, "is not valid", fmt::format("give a whole number, {}", range_text(low, high)));
+  throw not_valid(option, input, "is not valid", fmt::format("give a whole number, {}", range_text(low, high)));
 }
 
-inline double parse_positive(double low, double high, std::string_view option, std::string_view text) {
+inline double parse_positive(double low, double high, std::string_view option, const SettingInput& input) {
   const std::string hint = fmt::format("give a number from {} to {}", low, high);
-  const auto number = parse_whole_of<double>(text);
-  if (!number || !std::isfinite(*number) || *number <= 0.0)
-    throw not_valid(option, text, "is not a positive number", hint);
+  const std::optional<double> number = input.number();
+  if (!number || *number <= 0.0) throw not_valid(option, input, "is not a positive number", hint);
   if (*number < low || *number > high)
-    throw not_valid(option, text, fmt::format("is not within {} to {}", low, high), hint);
+    throw not_valid(option, input, fmt::format("is not within {} to {}", low, high), hint);
   return *number;
 }
 
-inline glm::dvec3 parse_direction(std::string_view option, const std::string& text) {
+inline glm::dvec3 parse_direction(std::string_view option, const SettingInput& input) {
+  const std::vector<SettingInput> parts = input.parts();
   std::vector<double> values;
-  for (const std::string& part : parts_of(text)) {
-    if (const auto number = parse_whole_of<double>(part); number && std::isfinite(*number)) values.push_back(*number);
+  for (const SettingInput& part : parts) {
+    if (const std::optional<double> number = part.number()) values.push_back(*number);
   }
   const glm::dvec3 direction =
-      values.size() == 3 && parts_of(text).size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(0);
+      values.size() == 3 && parts.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : glm::dvec3(0);
   const double length = glm::length(direction);
   if (length > 0.0 && std::isfinite(length)) return direction / length;
-  throw not_valid(option, text, "is not a direction", "give X,Y,Z in the world, for example 0,1,0");
+  throw not_valid(option, input, "is not a direction", "give X,Y,Z in the world, for example 0,1,0");
 }
 
-inline int parse_side(std::string_view option, std::string_view size, std::string_view digits) {
-  const std::string hint = "give WIDTHxHEIGHT in pixels, for example 512x512";
-  const bool is_count = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+inline std::string joined_texts(const std::vector<SettingInput>& parts, std::string_view separator) {
+  std::vector<std::string> texts;
+  texts.reserve(parts.size());
+  for (const SettingInput& part : parts) texts.push_back(part.text());
+  return fmt::format("{}", fmt::join(texts, separator));
+}
+
+// The side of a size, which errors name whole. Digits that do not fit the type are a number too, far over the limit.
+inline int parse_side(std::string_view option, const std::string& size, const SettingInput& side) {
+  const std::string hint = "give WIDTHxHEIGHT in pixels, for example 512x512", text = side.text();
+  const bool is_count = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   if (!is_count) throw not_valid(option, size, "is not a frame size", hint);
-  // Digits that do not fit the type are a number too, far over the limit.
-  const auto side = parse_whole_of<std::uint64_t>(digits).value_or(std::numeric_limits<std::uint64_t>::max());
-  if (side == 0) throw not_valid(option, size, "has no pixels", hint);
-  if (side > max_frame_side)
+  const auto pixels = side.whole<std::uint64_t>().value_or(std::numeric_limits<std::uint64_t>::max());
+  if (pixels == 0) throw not_valid(option, size, "has no pixels", hint);
+  if (pixels > max_frame_side)
     throw not_valid(option, size, fmt::format("has a side of more than {} pixels", max_frame_side), hint);
-  return static_cast<int>(side);
+  return static_cast<int>(pixels);
 }
 
-inline glm::ivec2 parse_size(std::string_view option, std::string_view text) {
-  const std::size_t cross = std::min(text.find('x'), text.size());
-  const std::string_view height = cross < text.size() ? text.substr(cross + 1) : std::string_view();
-  const glm::ivec2 size{parse_side(option, text, text.substr(0, cross)), parse_side(option, text, height)};
+inline glm::ivec2 parse_size(std::string_view option, const SettingInput& input) {
+  std::vector<SettingInput> sides = input.parts('x');
+  const std::string text = joined_texts(sides, "x");
+  if (sides.size() != 2) sides.assign(2, "");  // not a size
+  const glm::ivec2 size{parse_side(option, text, sides[0]), parse_side(option, text, sides[1])};
   if (option.empty()) return size;  // an experiment may be listed and checked on a machine that is too small to run it
   constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
   require_memory(frame_bytes(static_cast<std::uint64_t>(size.x), static_cast<std::uint64_t>(size.y), pixel_bytes),
@@ -98,36 +106,38 @@ inline glm::ivec2 parse_size(std::string_view option, std::string_view text) {
   return size;
 }
 
-inline std::vector<double> parse_distances(std::size_t most, std::string_view option, const std::string& text) {
+inline std::vector<double> parse_distances(std::size_t most, std::string_view option, const SettingInput& input) {
   std::vector<double> distances;
-  for (const std::string& part : parts_of(text)) {
+  for (const SettingInput& part : input.parts()) {
     const double distance = parse_positive(smallest_distance, largest_distance, option, part);
     if (std::ranges::find(distances, distance) != distances.end())
       throw not_valid(option, part, "is given twice", "give each once");
     distances.push_back(distance);
   }
-  if (distances.size() > most) throw not_valid(option, text, "is more than one distance", "give one");
+  if (distances.size() > most) throw not_valid(option, input, "is more than one distance", "give one");
   return distances;
 }
 
-inline std::optional<Exposure> parse_exposure(std::string_view option, std::string_view text) {
-  if (text == "auto") return std::nullopt;
-  const auto factor = parse_whole_of<double>(text);
+inline std::optional<Exposure> parse_exposure(std::string_view option, const SettingInput& input) {
+  if (input.text() == "auto") return std::nullopt;
+  const std::optional<double> factor = input.number();
   if (!factor || !(*factor >= smallest_exposure && *factor <= largest_exposure))
-    throw not_valid(option, text, "is not an exposure", "give `auto` or a positive factor on radiance");
+    throw not_valid(option, input, "is not an exposure", "give `auto` or a positive factor on radiance");
   return Exposure{.factor = static_cast<float>(*factor),
                   .source = option.empty() ? ExposureSource::experiment : ExposureSource::command_line};
 }
 
-inline MethodSpec parse_one_method(std::string_view option, const std::string& text,
+inline MethodSpec parse_one_method(std::string_view option, const SettingInput& input,
                                    const std::filesystem::path& folder, MethodParser parse) {
+  const std::string text = input.text();
   if (text == "reference") return {.text = text, .name = text, .options = {}};
   const std::vector<MethodSpec> methods = parse(text, folder);
   if (methods.size() == 1) return methods.front();
   throw not_valid(option, text, "is more than one method", "name one");
 }
 
-inline std::string parse_name(const char* hint, std::string_view option, const std::string& text) {
+inline std::string parse_name(const char* hint, std::string_view option, const SettingInput& input) {
+  std::string text = input.text();
   if (text.empty()) throw not_valid(option, text, "is empty", hint);
   return text;
 }
@@ -144,12 +154,12 @@ std::string written(const Value& value) {
   }
 }
 
-// A value of which `parse(option, text)` makes what the field stores.
+// A value of which `parse(option, input)` makes what the field stores.
 SettingType typed(auto field, std::string word, std::string takes, auto parse, auto write) {
   return {.word = std::move(word),
           .takes = std::move(takes),
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run) = parse(option, text); },
+          .read = [=](RunSettings& run, std::string_view option,
+                      const SettingInput& input) { field(run) = parse(option, input); },
           .text = [=](RunSettings run) { return std::string(write(field(run))); }};
 }
 
@@ -169,7 +179,7 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 
 /// Any text.
 [[nodiscard]] SettingType any_text(auto field, const char* word) {
-  return typed(field, word, "", [](std::string_view, const std::string& text) { return text; });
+  return typed(field, word, "", [](std::string_view, const SettingInput& input) { return input.text(); });
 }
 
 /// Any text except an empty one.
@@ -186,8 +196,8 @@ inline const auto joined = [](const auto& values) { return fmt::format("{}", fmt
 [[nodiscard]] SettingType folders(auto field) {
   const auto parse = std::bind_front(parse_name, "name a folder");
   return {.word = "DIR",
-          .read_text = [=](RunSettings& run, std::string_view option,
-                           const std::string& text) { field(run).emplace_back(parse(option, text)); },
+          .read = [=](RunSettings& run, std::string_view option,
+                      const SettingInput& input) { field(run).emplace_back(parse(option, input)); },
           .text = [](const RunSettings&) { return std::string(); },
           .repeats = true};
 }
@@ -201,9 +211,9 @@ template <class Field>
 /// A list of whole numbers, each within the range.
 [[nodiscard]] SettingType whole_numbers(auto field, int low, int high) {
   const auto write = [](const auto& all) { return all.empty() ? "" : fmt::format("[{}]", fmt::join(all, ", ")); };
-  const auto parse = [=](std::string_view option, const std::string& text) {
+  const auto parse = [=](std::string_view option, const SettingInput& input) {
     std::vector<int> numbers;
-    for (const std::string& part : parts_of(text)) numbers.push_back(parse_whole_number(low, high, option, part));
+    for (const SettingInput& part : input.parts()) numbers.push_back(parse_whole_number(low, high, option, part));
     return numbers;
   };
   return listed(typed(field, "LIST", "", parse, write), fmt::format("a list, each {} to {}", low, high));
@@ -216,20 +226,20 @@ template <class Field>
 
 /// An angle in degrees, in either direction, not 0.
 [[nodiscard]] SettingType angle(auto field, double most) {
-  const auto parse = [=](std::string_view option, std::string_view text) {
-    const auto number = parse_whole_of<double>(text);
+  const auto parse = [=](std::string_view option, const SettingInput& input) {
+    const std::optional<double> number = input.number();
     if (number && std::abs(*number) <= most && *number != 0.0) return *number;
-    throw not_valid(option, text, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
+    throw not_valid(option, input, "is not a valid angle", fmt::format("give degrees from -{0} to {0}, not 0", most));
   };
   return typed(field, "DEGREES", fmt::format("-{0} to {0}", most), parse);
 }
 
 /// A moment in seconds, of either sign.
 [[nodiscard]] SettingType seconds(auto field) {
-  const auto parse = [](std::string_view option, std::string_view text) {
-    const auto number = parse_whole_of<double>(text);
+  const auto parse = [](std::string_view option, const SettingInput& input) {
+    const std::optional<double> number = input.number();
     if (number && std::abs(*number) <= largest_seconds) return *number;
-    throw not_valid(option, text, "is not a time", fmt::format("give seconds from -{0} to {0}", largest_seconds));
+    throw not_valid(option, input, "is not a time", fmt::format("give seconds from -{0} to {0}", largest_seconds));
   };
   return typed(field, "SECONDS", fmt::format("-{0} to {0}", largest_seconds), parse);
 }
@@ -244,9 +254,9 @@ template <class Field>
 [[nodiscard]] SettingType fixed_samples(auto field, int low, int high) {
   return {.word = "N",
           .takes = range_text(low, high),
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& text) {
-                field(run).spp = parse_whole_number(low, high, option, text);
+          .read =
+              [=](RunSettings& run, std::string_view option, const SettingInput& input) {
+                field(run).spp = parse_whole_number(low, high, option, input);
                 field(run).fixed_spp = true;
               },
           .text = [=](RunSettings run) { return fmt::format("{}", field(run).spp); }};
@@ -256,12 +266,12 @@ template <class Field>
 [[nodiscard]] SettingType noise(auto field) {
   return {.word = "X",
           .takes = fmt::format("{} to {}, or auto", least_noise, most_noise),
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& text) {
+          .read =
+              [=](RunSettings& run, std::string_view option, const SettingInput& input) {
                 field(run).by_noise = true;
-                field(run).noise = text == "auto"
+                field(run).noise = input.text() == "auto"
                                        ? std::nullopt
-                                       : std::optional(parse_positive(least_noise, most_noise, option, text));
+                                       : std::optional(parse_positive(least_noise, most_noise, option, input));
               },
           .text =
               [=](RunSettings run) {
@@ -298,7 +308,8 @@ template <class Field>
   const auto write = [](const auto& filter) { return filter ? footprint_filter_text(*filter) : ""; };
   return typed(
       field, "FILTER", footprint_filter_choices(),
-      [](std::string_view option, const std::string& text) { return parse_footprint_filter(text, option); }, write);
+      [](std::string_view option, const SettingInput& input) { return parse_footprint_filter(input.text(), option); },
+      write);
 }
 
 /// Methods; in a file also "all".
@@ -307,8 +318,9 @@ template <class Field>
           .takes = "name, FILE.glsl or name:option=value each, comma-separated",
           .file_takes =
               R"(a list as ["direct", "toksvig:storage=fp16"], or "all" for all but slow ones with their defaults)",
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& text) {
+          .read =
+              [=](RunSettings& run, std::string_view option, const SettingInput& input) {
+                const std::string text = input.text();
                 const bool are_all = option.empty() && text == "all";  // in files
                 field(run) = are_all ? every_method() : parse(text, run.method_folder);
               },
@@ -320,19 +332,19 @@ template <class Field>
 [[nodiscard]] SettingType one_method(auto field, MethodParser parse = parse_known_methods) {
   return {.word = "M",
           .takes = "name or FILE.glsl, or name:option=value",
-          .read_text =
-              [=](RunSettings& run, std::string_view option, const std::string& text) {
-                field(run) = {parse_one_method(option, text, run.method_folder, parse)};
+          .read =
+              [=](RunSettings& run, std::string_view option, const SettingInput& input) {
+                field(run) = {parse_one_method(option, input, run.method_folder, parse)};
               },
           .text = methods(field).text};
 }
 
 /// A set of effects, by name.
 [[nodiscard]] SettingType effects(auto field) {
-  const auto parse = [](std::string_view option, const std::string& text) {
+  const auto parse = [](std::string_view option, const SettingInput& input) {
     const std::vector<std::string> names = effect_names(EffectSet{}.set());
     EffectSet effects;
-    for (const std::string& word : parts_of(text)) effects.set(find_word(names, word, "effect", option));
+    for (const SettingInput& word : input.parts()) effects.set(find_word(names, word.text(), "effect", option));
     return effects;
   };
   const auto write = [](const EffectSet& effects) { return joined(effect_names(effects)); };
@@ -342,9 +354,10 @@ template <class Field>
 /// GPUs whose cost is estimated, by name.
 [[nodiscard]] SettingType gpus(auto field) {
   const std::string takes = fmt::format("{}, all", fmt::join(chip_names(), ", "));
-  const auto parse = [](std::string_view option, const std::string& text) {
-    std::vector<std::string> names;
-    for (const Chip* chip : chips_named(option, parts_of(text))) names.emplace_back(chip->name);
+  const auto parse = [](std::string_view option, const SettingInput& input) {
+    std::vector<std::string> wanted, names;
+    for (const SettingInput& part : input.parts()) wanted.push_back(part.text());
+    for (const Chip* chip : chips_named(option, wanted)) names.emplace_back(chip->name);
     return names;
   };
   return listed(typed(field, "NAME,...", takes, parse, joined), R"(a list as ["Steam Deck", "RX 6800"], or ["all"])");
@@ -353,16 +366,35 @@ template <class Field>
 /// A flag that unsets a folder.
 [[nodiscard]] SettingType no_folder(auto field) {
   return typed(
-      field, "", "", [](std::string_view, const std::string&) { return std::nullopt; }, [](const auto&) { return ""; });
+      field, "", "", [](std::string_view, const SettingInput&) { return std::nullopt; },
+      [](const auto&) { return ""; });
+}
+
+/// A flag. An experiment's file writes true or false.
+[[nodiscard]] SettingType flag(auto field) {
+  SettingType type = typed(
+      field, "", "",
+      [](std::string_view, const SettingInput& input) { return input.boolean().value_or(input.text() == "true"); },
+      [](bool is_set) { return is_set ? "true" : ""; });
+  type.is_switch = true;
+  return type;
 }
 
 /// One of some words; `what` names them in errors.
 template <class Value, std::size_t count>
 [[nodiscard]] SettingType one_word(auto field, const std::array<Word<Value>, count>& words, const char* what) {
-  return typed(
+  SettingType type = typed(
       field, "WORD", fmt::format("{}", fmt::join(word_names(words), ", ")),
-      [=](std::string_view option, const std::string& text) { return word_value(words, text, what, option); },
+      [=](std::string_view option, const SettingInput& input) {
+        if constexpr (std::is_same_v<Value, bool>) {
+          if (const std::optional<bool> is_on = input.boolean()) return *is_on;
+        }
+        return word_value(words, input.text(), what, option);
+      },
       [=](const Value& value) { return word_for(words, value); });
+  type.is_switch = std::is_same_v<Value, bool>;
+  if (type.is_switch) type.file_takes = "true, false, " + type.takes;
+  return type;
 }
 
 }  // namespace footprint::setting_types

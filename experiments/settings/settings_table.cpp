@@ -405,6 +405,30 @@ std::vector<Setting> timing_settings() {
   };
 }
 
+bool& fresh(Run& run) { return run.output.fresh; }
+
+std::vector<Setting> output_settings() {
+  return {
+      {.option = "-v,--verbose",
+       .commands = {"compare"},
+       .type = flag([](Run& run) -> bool& { return run.output.verbose; }),
+       .help = "print all of table.md: errors by cause, pairs of methods, supersampling, bakes"},
+      {.option = "--video",
+       .commands = {"animate"},
+       .type = flag([](Run& run) -> bool& { return run.output.video; }),
+       .help = "also make images/film.mp4 with ffmpeg: the reference and all methods side by side, 30 frames per "
+               "second"},
+      {.option = "--fresh",
+       .commands = {"recommend", "run", "check"},
+       .type = flag(fresh),
+       .help = "measure everything again: discard the finished work in the output folder"},
+      {.option = "--fresh",
+       .commands = {"animate"},
+       .type = flag(fresh),
+       .help = "render every frame again: discard the finished ones"},
+  };
+}
+
 }  // namespace
 
 std::span<const Setting> run_settings() {
@@ -419,6 +443,7 @@ std::span<const Setting> run_settings() {
     add("History", history_settings());
     add("Reference", reference_settings());
     add("Timing and OpenGL", timing_settings());
+    add("Output", output_settings());
     return all;
   }();
   return settings;

@@ -8,6 +8,7 @@
 
 #include "experiments/settings/setting.hpp"
 #include "renderer/core/error.hpp"
+#include "renderer/core/toml_table.hpp"
 #include "tests/support/says.hpp"
 
 namespace footprint {
@@ -27,7 +28,7 @@ const Setting& row_of(std::string_view command, std::string_view option) {
 // The settings after `option TEXT` of a subcommand.
 RunSettings read(std::string_view command, std::string_view option, const std::string& text) {
   RunSettings run;
-  row_of(command, option).type.read_text(run, option, text);
+  row_of(command, option).type.read(run, option, text);
   return run;
 }
 
@@ -51,7 +52,7 @@ TEST(BakesSetting, TakesAFolderEachTime) {
   const SettingType& type = row_of("compare", "--bakes").type;
   EXPECT_TRUE(type.repeats);
   RunSettings run;
-  for (const char* folder : {"maps,1", "more"}) type.read_text(run, "--bakes", folder);
+  for (const char* folder : {"maps,1", "more"}) type.read(run, "--bakes", folder);
   EXPECT_EQ(run.bakes, (std::vector<std::filesystem::path>{"maps,1", "more"}));
   EXPECT_TRUE(says(refusal("render", "--bakes", ""), "--bakes: `` is empty"));
 }
@@ -140,6 +141,72 @@ TEST(MethodSetting, IsOneMethodOrTheReference) {
   EXPECT_TRUE(says(refusal("render", "--method", "direct,toksvig"), "more than one method"));
 }
 
+// The settings of [`name`] in a file with these lines.
+RunSettings read_file(std::string_view name, std::string_view lines) {
+  RunSettings run;
+  read_settings(TomlTable("run.toml", lines, setting_keys(name)), name, run);
+  return run;
+}
+
+std::string refused_file(std::string_view name, std::string_view lines) {
+  try {
+    (void)read_file(name, lines);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << lines << " was taken";
+  return {};
+}
+
+// 2^53 + 1 is no double.
+TEST(SettingsOfAFile, KeepTheirType) {
+  EXPECT_EQ(read_file("reference", "seed = 9007199254740993").reference.seed, 9007199254740993U);
+  EXPECT_EQ(read_file("reference", "seed = 9223372036854775807").reference.seed, 9223372036854775807U);
+  EXPECT_EQ(read_file("reference", "spp = 64.0").reference.spp, 64);
+  EXPECT_EQ(read_file("reference", "spp = \"64\"").reference.spp, 64);
+  EXPECT_EQ(read_file("reference", "noise = 1e-3").reference.noise, 1e-3);
+  EXPECT_EQ(read_file("reference", "noise = 1").reference.noise, 1.0);
+  EXPECT_EQ(read_file("zoom", "distances = [1, 0.1, \"2\"]").view.distances, (std::vector<double>{1.0, 0.1, 2.0}));
+  EXPECT_EQ(read_file("reference", "other_spp = [16, 4]").reference.other_spp, (std::vector<int>{16, 4}));
+}
+
+TEST(SettingsOfAFile, RefuseOtherTypes) {
+  for (const char* line : {"spp = 64.5", "spp = -1", "spp = 1e300", "spp = nan", "spp = 4097"})
+    EXPECT_TRUE(says(refused_file("reference", line), "give a whole number, 1 to 4096")) << line;
+  for (const char* line : {"noise = inf", "noise = nan", "noise = 0", "noise = -1.0"})
+    EXPECT_TRUE(says(refused_file("reference", line), "is not a positive number")) << line;
+  EXPECT_TRUE(says(refused_file("reference", "spp = true"), "run.toml:1: `spp` must be a number"));
+  EXPECT_TRUE(says(refused_file("reference", "spp = [64]"), "run.toml:1: `spp` must be a string or a number"));
+  EXPECT_TRUE(says(refused_file("zoom", "distances = 2"), "must be a list of strings or numbers"));
+  EXPECT_TRUE(says(refused_file("zoom", "distances = [\"1,2\"]"), "write each value on its own"));
+  EXPECT_TRUE(says(refused_file("reference", "seed = -1"), "0 or more"));
+}
+
+TEST(SettingsOfAFile, TakeSizesAsListsAndTexts) {
+  const std::string required = "scene = \"s\"\nmethods = [\"direct\"]\n";
+  for (const char* line : {"size = [640, 480]", "size = \"640x480\"", "size = [\"640\", 480.0]"})
+    EXPECT_EQ(read_file("experiment", required + line).view.size, glm::ivec2(640, 480)) << line;
+  for (const char* line : {"size = [640]", "size = [640, 480, 1]", "size = [640, -480]", "size = [640, 0.5]"})
+    EXPECT_TRUE(says(refused_file("experiment", required + line), "is not a frame size")) << line;
+}
+
+TEST(FlagSetting, IsSetByItsOption) {
+  EXPECT_FALSE(RunSettings().output.video);
+  EXPECT_TRUE(read("animate", "--video", "true").output.video);
+  EXPECT_TRUE(read("compare", "--verbose", "true").output.verbose);
+  EXPECT_TRUE(read("check", "--fresh", "true").output.fresh);
+  EXPECT_FALSE(read("animate", "--video", "false").output.video);
+}
+
+TEST(SwitchSetting, TakesWordsAndBooleans) {
+  EXPECT_FALSE(read("compare", "--history-jitter", "off").history.jitter);
+  const std::string required = "scene = \"s\"\nmethods = [\"direct\"]\n";
+  EXPECT_FALSE(read_file("experiment", required + "history_jitter = false").history.jitter);
+  EXPECT_TRUE(read_file("experiment", required + "history_jitter = true").history.jitter);
+  EXPECT_FALSE(read_file("experiment", required + "history_jitter = \"off\"").history.jitter);
+}
+
 // Every row has the fields that reading, help and documents need.
 TEST(SettingsTable, EveryRowIsWhole) {
   std::set<std::pair<std::string_view, std::string_view>> seen;
@@ -150,7 +217,7 @@ TEST(SettingsTable, EveryRowIsWhole) {
     EXPECT_EQ(setting.option.empty(), setting.commands.empty()) << row;
     EXPECT_EQ(setting.key.table.empty(), setting.key.empty()) << row;
     EXPECT_FALSE(setting.option.empty() && setting.key.empty()) << row;
-    EXPECT_TRUE(setting.type.read_text) << row;
+    EXPECT_TRUE(setting.type.read) << row;
     EXPECT_TRUE(setting.key.empty() || seen.emplace(setting.key.table, setting.key.name).second)
         << row << " is there twice";
     for (const std::string_view command : setting.commands) {
@@ -164,7 +231,7 @@ TEST(SettingsTable, EveryDefaultIsTaken) {
   for (const Setting& setting : run_settings()) {
     if (setting.option.empty() || default_text(setting).empty()) continue;
     RunSettings run;
-    EXPECT_NO_THROW(setting.type.read_text(run, setting.option, default_text(setting))) << setting.option;
+    EXPECT_NO_THROW(setting.type.read(run, setting.option, default_text(setting))) << setting.option;
     EXPECT_EQ(setting.type.text(run), default_text(setting)) << setting.option;
   }
 }

@@ -22,6 +22,10 @@
 #include "results/report/ranking.hpp"
 
 namespace footprint {
+
+template <>
+inline constexpr bool is_private_document<RunView> = true;
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -186,6 +186,17 @@ struct ComparisonHead {
   std::vector<std::string> last_warnings = {};  ///< after those of the views
 };
 
+template <>
+inline constexpr bool is_private_document<Exposure> = true;
+template <>
+inline constexpr bool is_private_document<ReferenceSettings> = true;
+template <>
+inline constexpr bool is_private_document<ReferenceWork> = true;
+template <>
+inline constexpr bool is_private_document<DistanceResult> = true;
+template <>
+inline constexpr bool is_private_document<ComparisonHead> = true;
+
 /// The name of a frame of an animation in finished work.
 [[nodiscard]] std::string frame_name(std::size_t index);
 

@@ -49,19 +49,12 @@ std::vector<OtherReference> errors_against_others(const Reference& target, const
 
 void set_error(Record& record, const Reference& target, const Image& frame, const std::optional<Image>& finest,
                float exposure) {
-  const std::optional<ErrorFigures> figures = compare_images(frame, target.reference.mean, exposure);
+  const std::optional<ErrorFigures> figures =
+      compare_images(frame, target.reference.mean, exposure, target.parts.interior);
   if (!figures) return;
   const BoundPicture* const bound = target.bound && !record.history ? &*target.bound : nullptr;
-  record.error = RecordError{.normalized_color = figures->normalized_color,
-                             .relative_rmse = figures->relative_rmse,
-                             .relmse = figures->relmse,
-                             .psnr = figures->psnr,
-                             .energy_bias = figures->energy_bias,
-                             .luminance_distance = figures->luminance_distance,
-                             .luminances = figures->luminances,
-                             .reference_luminances = figures->reference_luminances,
-                             .noise_floor = target.noise_floor,
-                             .causes = causes_of(target, bound, frame, exposure)};
+  record.error = RecordError{*figures, target.noise_floor};
+  record.error->causes = causes_of(target, bound, frame, exposure);
   if (finest) {
     record.error->representation = normalized_color(*finest, target.reference.mean, exposure);
     record.error->filtering = normalized_color(frame, *finest, exposure);

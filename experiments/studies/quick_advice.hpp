@@ -25,6 +25,15 @@ struct QuickCalibration {
   double order_right = 0;               ///< share of pairs of methods in the right order
   double choice_right = 0;              ///< share of maps whose best prediction is within 10% of the best method
 };
+void fields(auto& archive, Is<QuickCalibration> auto& value) {
+  archive("footprint", value.footprint);
+  archive("scenes", value.scenes);
+  archive("median_factor", value.median_factor);
+  archive("interval_80", value.interval_80);
+  archive("order_factor", value.order_factor);
+  archive("order_right", value.order_right);
+  archive("choice_right", value.choice_right);
+}
 
 /// A method under a footprint filter.
 struct QuickFilter {
@@ -32,12 +41,22 @@ struct QuickFilter {
   std::vector<double> weights;          ///< of the inputs (quick_prediction)
   std::map<std::string, double> costs;  ///< by GPU, over `direct` under trilinear lookups
 };
+void fields(auto& archive, Is<QuickFilter> auto& value) {
+  archive("footprint", value.footprint);
+  archive("weights", value.weights);
+  archive("costs", value.costs);
+}
 
 struct QuickMethod {
   std::string method;  ///< as written
   double bytes_per_texel = 0;
   std::vector<QuickFilter> filters;
 };
+void fields(auto& archive, Is<QuickMethod> auto& value) {
+  archive("method", value.method);
+  archive("bytes_per_texel", value.bytes_per_texel);
+  archive("filters", value.filters);
+}
 
 /// The model, which scripts/studies/quick_model.py fits and writes.
 struct QuickModel {
@@ -49,6 +68,14 @@ struct QuickModel {
   std::vector<std::vector<std::array<double, 2>>> domain = {};
   std::vector<QuickMethod> methods;
 };
+void fields(auto& archive, Is<QuickModel> auto& value) {
+  archive("texels_per_pixel", value.texels_per_pixel);
+  archive("scenes", value.scenes);
+  archive("calibration", value.calibration);
+  archive("surfaces", value.surfaces);
+  archive("domain", value.domain);
+  archive("methods", value.methods);
+}
 
 /// Reads results/quick_model.json; each calibration becomes the worse of the two. Throws Error (machine): unreadable,
 /// or not such a document.

@@ -12,6 +12,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/core/numbers.hpp"
 #include "renderer/image/image_io.hpp"
+#include "results/report/figure_table.hpp"
 
 namespace footprint {
 namespace {
@@ -71,23 +72,30 @@ void exclude(Image& reference, std::size_t pixel) {
   coverage = std::min(coverage, 0.5F);
 }
 
-std::optional<double> of_radiance(const PictureScore& score, double value) {
-  return score.displayed ? std::nullopt : std::optional(value);
+// The measure of a figure that any two images have.
+ScoreMetric metric_of(const Figure& figure) {
+  return {.key = metric_name(figure),
+          .title = figure.title,
+          .value =
+              [&figure](const PictureScore& score) {
+                if (score.displayed && figure.is_of_radiance) return std::optional<double>();
+                return metric_value(*figure.metric, score.error);
+              },
+          .is_better_larger = figure.is_better_larger};
 }
 
-constexpr std::array<ScoreMetric, 9> metrics{{
-    {"normalized_color", "Error", [](const PictureScore& s) { return std::optional(s.error.normalized_color); }},
-    {"normalized_color_p99", "99th perc.",
-     [](const PictureScore& s) { return std::optional(error_percentile(s, 99.0)); }},
-    {"relative_rmse", "Rel. RMSE", [](const PictureScore& s) { return of_radiance(s, s.error.relative_rmse); }},
-    {"relmse", "relMSE", [](const PictureScore& s) { return of_radiance(s, s.error.relmse); }},
-    {"psnr", "PSNR dB", [](const PictureScore& s) { return std::optional(s.error.psnr); }},
-    {"energy_bias", "Energy", [](const PictureScore& s) { return of_radiance(s, s.error.energy_bias); }},
-    {"luminance_distance", "Lum. dist.",
-     [](const PictureScore& s) { return std::optional(s.error.luminance_distance); }},
-    {"ldr_flip", "LDR-FLIP", [](const PictureScore& s) { return std::optional(s.ldr_flip); }},
-    {"hdr_flip", "HDR-FLIP", [](const PictureScore& s) { return s.hdr_flip; }},
-}};
+std::vector<ScoreMetric> every_metric() {
+  std::vector<ScoreMetric> metrics;
+  for (const Figure& figure : record_figures()) {
+    if (figure.metric) metrics.push_back(metric_of(figure));
+  }
+  metrics.push_back({"ldr_flip", "LDR-FLIP", [](const PictureScore& s) { return std::optional(s.ldr_flip); }});
+  metrics.push_back({"hdr_flip", "HDR-FLIP", [](const PictureScore& s) { return s.hdr_flip; }});
+  const auto after_the_mean = std::ranges::find(metrics, "normalized_color", &ScoreMetric::key) + 1;
+  metrics.insert(after_the_mean, {"normalized_color_p99", "99th perc.",
+                                  [](const PictureScore& s) { return std::optional(error_percentile(s, 99.0)); }});
+  return metrics;
+}
 
 constexpr double standard_errors = 3.0;
 constexpr double rounding = 1e-5;  // of displayed values: the error of sums of 32-bit floats
@@ -165,7 +173,10 @@ double take_parameter(std::string& name, const std::string& place) {
 
 }  // namespace
 
-std::span<const ScoreMetric> score_metrics() { return metrics; }
+std::span<const ScoreMetric> score_metrics() {
+  static const std::vector<ScoreMetric> metrics = every_metric();
+  return metrics;
+}
 
 Image shown(const Image& radiance, float exposure) {
   Image out(radiance.width, radiance.height, 3);
@@ -335,13 +346,13 @@ ScoreLimit parse_score_limit(const std::string& text) {
   ScoreLimit limit{.text = text, .name = text.substr(0, equals)};
   limit.most = number_in(text.substr(equals + 1), place, -1e300, 1e300);
   limit.parameter = take_parameter(limit.name, place);
-  if (limit.name == "psnr")
-    throw Error(ErrorKind::usage, place, "a larger PSNR is better, so it has no upper limit", "limit normalized_color");
-  if (limit.name == "p" || limit.name == share_prefix || limit.name == rejected_name ||
-      metric_named(limit.name) != nullptr)
-    return limit;
+  const ScoreMetric* const metric = metric_named(limit.name);
+  if (metric != nullptr && metric->is_better_larger)
+    throw Error(ErrorKind::usage, place, fmt::format("a larger {} is better, so it has no upper limit", limit.name),
+                "limit normalized_color");
+  if (limit.name == "p" || limit.name == share_prefix || limit.name == rejected_name || metric != nullptr) return limit;
   std::vector<std::string> names{"p99", std::string(share_prefix) + "0.1", std::string(rejected_name)};
-  for (const ScoreMetric& metric : score_metrics()) names.emplace_back(metric.key);
+  for (const ScoreMetric& each : score_metrics()) names.emplace_back(each.key);
   throw Error(ErrorKind::usage, place, fmt::format("`{:.80}` is no measure of a score", limit.name),
               suggestion(limit.name, names));
 }

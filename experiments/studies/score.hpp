@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,10 +71,12 @@ struct PixelTest {
 /// as in Mitsuba's tests. Radiance is compared, without exposure. Errors (usage): sizes differ.
 [[nodiscard]] std::size_t rejected_pixels(const Image& picture, const Image& reference, const PixelTest& test);
 
-/// A measure of a score, in the order of tables and of score.json.
+/// A measure of a score: an image metric of figure_table.hpp, or one that only scores have. In the order of tables and
+/// of score.json.
 struct ScoreMetric {
   std::string_view key, title;
-  std::optional<double> (*value)(const PictureScore& score);  ///< none for displayed colours if it needs radiance
+  std::function<std::optional<double>(const PictureScore& score)> value;  ///< none for displayed colours if of radiance
+  bool is_better_larger = false;                                          ///< it has no upper limit
 };
 
 [[nodiscard]] std::span<const ScoreMetric> score_metrics();
@@ -107,9 +110,10 @@ struct PairScore {
 [[nodiscard]] PairScore score_pair(const ScoredPicture& a, const ScoredPicture& b, const Image& reference,
                                    const Image& standard_error, float exposure);
 
-/// A limit as `--max NAME=VALUE` writes it. NAME is a measure of score_metrics() (its absolute value; not `psnr`), `pN`
-/// (the Nth percentile of the normalised colour error over object pixels, 0 to 100), `share_above:E` (the share of
-/// object pixels whose error is above E), or `rejected` (pixels that the test per pixel rejects).
+/// A limit as `--max NAME=VALUE` writes it. NAME is a measure of score_metrics() (its absolute value; not of one that
+/// is better if larger), `pN` (the Nth percentile of the normalised colour error over object pixels, 0 to 100),
+/// `share_above:E` (the share of object pixels whose error is above E), or `rejected` (pixels that the test per pixel
+/// rejects).
 struct ScoreLimit {
   std::string text;  ///< as written
   std::string name;

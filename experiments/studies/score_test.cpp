@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <random>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "experiments/studies/measured_view.hpp"
+#include "results/report/figure_table.hpp"
 #include "tests/support/fresh_folder.hpp"
 #include "tests/support/gltf_builder.hpp"
 
@@ -158,6 +160,22 @@ PictureScore score_of(std::vector<float> errors) {
   return score;
 }
 
+TEST(ScoreMetrics, AreTheFiguresOfAnyTwoImages) {
+  PictureScore radiance = score_of({0.0F, 0.5F}), displayed = radiance;
+  displayed.displayed = true;
+  std::size_t count = 0;
+  for (const Figure& figure : record_figures()) {
+    if (!figure.metric) continue;
+    const auto found = std::ranges::find(score_metrics(), metric_name(figure), &ScoreMetric::key);
+    ASSERT_NE(found, score_metrics().end()) << figure.key;
+    EXPECT_EQ(found->title, figure.title);
+    EXPECT_EQ(found->value(radiance), metric_value(*figure.metric, radiance.error)) << figure.key;
+    EXPECT_EQ(found->value(displayed), figure.is_of_radiance ? std::nullopt : found->value(radiance)) << figure.key;
+    ++count;
+  }
+  EXPECT_EQ(score_metrics().size(), count + 3) << "a percentile, and FLIP twice";
+}
+
 TEST(ScoreLimits, AreAboutMeasuresPercentilesSharesAndTests) {
   PictureScore score = score_of({0.0F, 0.1F, 0.2F, 0.5F});
   const auto figure = [&](const std::string& text) { return figure_of(parse_score_limit(text), score); };
@@ -192,7 +210,7 @@ TEST(ScoreLimits, RefuseWhatTheyAreNot) {
        std::vector<std::pair<std::string, std::string>>{{"p99", "NAME=VALUE"},
                                                         {"=1", "NAME=VALUE"},
                                                         {"ldr_flp=1", "ldr_flip"},
-                                                        {"psnr=30", "larger PSNR is better"},
+                                                        {"psnr=30", "larger psnr is better"},
                                                         {"p101=1", "0 to 100"},
                                                         {"share_above:2=1", "0 to 1"},
                                                         {"p99=nan", "not a number"},

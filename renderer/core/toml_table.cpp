@@ -50,16 +50,29 @@ std::optional<std::string> word_or_number_of(const toml::node& node) {
   return word_of(node);
 }
 
-// The elements of a non-empty list, converted by `text_of`; none if it is not such a list.
-std::optional<std::vector<std::string>> texts_of(const toml::node& node,
-                                                 std::optional<std::string> (*text_of)(const toml::node&)) {
+std::optional<TomlScalar> scalar_of(const toml::node& node) {
+  if (node.is_integer()) return *node.value<std::int64_t>();
+  if (node.is_floating_point()) return *node.value<double>();
+  if (node.is_boolean()) return *node.value<bool>();
+  if (auto word = word_of(node)) return *std::move(word);
+  return std::nullopt;
+}
+
+std::optional<TomlScalar> word_or_number_scalar_of(const toml::node& node) {
+  return node.is_boolean() ? std::nullopt : scalar_of(node);
+}
+
+// The elements of a non-empty list, converted by `value_of`; none if it is not such a list.
+template <class Value>
+std::optional<std::vector<Value>> values_of(const toml::node& node,
+                                            std::optional<Value> (*value_of)(const toml::node&)) {
   const toml::array* array = node.as_array();
   if (array == nullptr || array->empty()) return std::nullopt;
-  std::vector<std::string> values;
+  std::vector<Value> values;
   for (const toml::node& element : *array) {
-    std::optional<std::string> text = text_of(element);
-    if (!text) return std::nullopt;
-    values.push_back(*std::move(text));
+    std::optional<Value> value = value_of(element);
+    if (!value) return std::nullopt;
+    values.push_back(*std::move(value));
   }
   return values;
 }
@@ -185,12 +198,21 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
 
 std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) const {
   return read(key, "must be a list of strings", R"(write it as ["a", "b"])",
-              [](const toml::node& node) { return texts_of(node, word_of); });
+              [](const toml::node& node) { return values_of(node, word_of); });
 }
 
 std::optional<std::vector<std::string>> TomlTable::words_or_numbers(std::string_view key) const {
   return read(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])",
-              [](const toml::node& node) { return texts_of(node, word_or_number_of); });
+              [](const toml::node& node) { return values_of(node, word_or_number_of); });
+}
+
+std::optional<TomlScalar> TomlTable::scalar(std::string_view key) const {
+  return read(key, "must be a string or a number", "write one value", scalar_of);
+}
+
+std::optional<std::vector<TomlScalar>> TomlTable::scalars(std::string_view key) const {
+  return read(key, "must be a list of strings or numbers", R"(write it as ["a", "b"], or [1, 2])",
+              [](const toml::node& node) { return values_of(node, word_or_number_scalar_of); });
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key, const std::vector<std::string>& known) const {

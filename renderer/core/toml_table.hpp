@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "renderer/core/error.hpp"
@@ -23,6 +24,9 @@ namespace footprint {
 struct NumberRange {
   double low, high;
 };
+
+/// A value of a key that is neither a list nor a table.
+using TomlScalar = std::variant<std::string, bool, std::int64_t, double>;
 
 /// One table of a TOML file. Readers return nothing if the key is missing. They throw Error (usage) "FILE:LINE" if the
 /// value has the wrong type, is not finite or is out of range.
@@ -57,6 +61,10 @@ class TomlTable {
   [[nodiscard]] std::optional<std::vector<std::string>> words(std::string_view key) const;
   /// Strings and numbers, one or more; numbers as they are written shortest.
   [[nodiscard]] std::optional<std::vector<std::string>> words_or_numbers(std::string_view key) const;
+  /// A string, a number or a boolean, with its type.
+  [[nodiscard]] std::optional<TomlScalar> scalar(std::string_view key) const;
+  /// Strings and numbers, one or more, each with its type.
+  [[nodiscard]] std::optional<std::vector<TomlScalar>> scalars(std::string_view key) const;
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key, const std::vector<std::string>& known) const;
   /// The sorted keys of the table [key]; empty without that table.
   [[nodiscard]] std::vector<std::string> keys_of(std::string_view key) const;

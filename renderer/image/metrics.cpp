@@ -14,6 +14,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/image/image.hpp"
+#include "renderer/image/ssim.hpp"
 
 namespace footprint {
 namespace {
@@ -119,9 +120,31 @@ double mean_luminance(const Image& reference) {
   return sum / static_cast<double>(object_pixel_count(reference));
 }
 
+std::optional<double> displayed_ssim(const Image& picture, const Image& reference, float exposure) {
+  Image shown(reference.width, reference.height, 1), expected = shown;
+  visit_object_pixels(picture, reference, [&](int column, int row, const Rgb& x, const Rgb& r) {
+    shown.at(column, row)[0] = static_cast<float>(shown_luminance(x, exposure));
+    expected.at(column, row)[0] = static_cast<float>(shown_luminance(r, exposure));
+  });
+  return mean_ssim(shown, expected, object_pixels(reference));
+}
+
+// The symmetric error of Vogels et al. 2018 without their constant, so that it does not depend on the unit of radiance.
+std::optional<double> smape(const Image& picture, const Image& reference, const Image& interior) {
+  double sum = 0;
+  std::size_t pixels = 0;
+  const auto add = [&](int, int, const Rgb& x, const Rgb& r) {
+    for (std::size_t c = 0; c < x.size(); ++c) sum += ratio(std::abs(x[c] - r[c]), std::abs(x[c]) + std::abs(r[c]));
+    ++pixels;
+  };
+  visit_object_pixels(picture, reference, add, interior);
+  return pixels > 0 ? std::optional(sum / (3 * static_cast<double>(pixels))) : std::nullopt;
+}
+
 }  // namespace
 
-std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure) {
+std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure,
+                                           const Image& interior) {
   require_comparable(picture, reference);
   const auto pixels = static_cast<double>(object_pixel_count(reference));
   if (pixels == 0) return std::nullopt;
@@ -151,6 +174,8 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
       .psnr = -10 * std::log10(shown_squares / (3 * pixels)),
       .energy_bias = ratio(sum - reference_sum, reference_sum),
       .luminance_distance = sorted_distance(std::move(shown_luminances), std::move(reference_luminances)),
+      .smape = smape(picture, reference, interior),
+      .ssim = displayed_ssim(picture, reference, exposure),
       .luminances = shown,
       .reference_luminances = expected};
 }

@@ -21,13 +21,17 @@ struct ErrorFigures {
   double psnr = 0;                ///< dB, peak 1, on exposed clamped values; infinite for equal images
   double energy_bias = 0;         ///< (sum x - sum r) / sum r on linear radiance, signed
   double luminance_distance = 0;  ///< mean of |y - y_ref| of exposed clamped luminances, each image's sorted on its own
+  std::optional<double> smape = {};  ///< mean of |x - r| / (|x| + |r|) on linear radiance; none: no interior pixel
+  std::optional<double> ssim = {};   ///< Wang 2004: mean structural similarity of displayed luminances (ssim.hpp)
   LuminanceHistogram luminances{}, reference_luminances{};  ///< of the object's pixels
 };
 
 /// Compares RGBA images of one size: linear radiance (mean over the covered part of the pixel), and coverage in alpha.
 /// Pixels that the image leaves uncovered count as black. Empty without object pixels. Throws Error (usage): different
 /// sizes, other than 4 channels, or an object pixel that is not finite.
-[[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure);
+/// interior: the pixels of `smape`, one channel, above 0; an empty image has all.
+[[nodiscard]] std::optional<ErrorFigures> compare_images(const Image& picture, const Image& reference, float exposure,
+                                                         const Image& interior = {});
 
 /// The normalised colour error only, over the object pixels in `mask` (one channel, above 0); an empty mask has all.
 /// Empty without any. Throws as compare_images.

@@ -50,6 +50,30 @@ std::string error_text(const std::function<void()>& action) {
   return "no error";
 }
 
+// By hand: the second pixel is exact, black against black is no error, and black against anything is 1.
+TEST(Metrics, SmapeIsTheDifferenceOverTheSum) {
+  const Image reference = pixels({{1, 2, 0, 1}, {5, 6, 7, 1}, {4, 0, 0, 1}, {9, 9, 9, 0.5F}});
+  const Image picture = pixels({{3, 2, 0, 1}, {5, 6, 7, 1}, {0, 0, 8, 1}, {1, 1, 1, 1}});
+  EXPECT_NEAR(compare_images(picture, reference, 1.0F)->smape.value(), (0.5 + 0 + 0 + 0 + 1 + 0 + 1) / 9, 1e-12);
+  Image interior(4, 1, 1);
+  EXPECT_FALSE(compare_images(picture, reference, 1.0F, interior)->smape);
+  interior.texels = {1, 1, 0, 1};
+  const ErrorFigures figures = compare_images(picture, reference, 1.0F, interior).value();
+  EXPECT_NEAR(figures.smape.value(), 0.5 / 6, 1e-12);
+  EXPECT_EQ(figures.normalized_color, compare_images(picture, reference, 1.0F)->normalized_color);
+}
+
+// Twice the radiance of both changes nothing, nor does an exchange of image and reference.
+TEST(Metrics, SmapeIsSymmetricAndHasNoUnit) {
+  Image picture = noise(1), reference = noise(2);
+  const double smape = compare_images(picture, reference, 1.0F)->smape.value();
+  EXPECT_NEAR(smape, 0.38, 0.1);
+  EXPECT_NEAR(compare_images(reference, picture, 1.0F)->smape.value(), smape, 1e-12);
+  scale_radiance(picture, 1000.0F);
+  scale_radiance(reference, 1000.0F);
+  EXPECT_NEAR(compare_images(picture, reference, 1.0F)->smape.value(), smape, 1e-6);
+}
+
 // Three pixels off by .1, .2 and .4 in red, a fourth beside the object.
 TEST(Metrics, ErrorOverSomePixels) {
   const Image reference = pixels({{0.1F, 0, 0, 1}, {0.1F, 0, 0, 1}, {0.1F, 0, 0, 1}, {0.1F, 0, 0, 0}});

@@ -41,6 +41,16 @@ struct EditRun {
   std::array<int, 2> size{};
   std::vector<EditRecord> records;
 };
+void fields(auto& archive, Is<EditRun> auto& value) {
+  archive("schema", value.schema);
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("kind", value.kind);
+  archive("method", value.method);
+  archive("size", value.size);
+  archive("records", value.records);
+}
 
 /// The document of docs/reference/results.md, "schema": "footprint-edit/1".
 [[nodiscard]] std::string edit_json(const EditRun& run);
@@ -58,6 +68,11 @@ void write_edit(const EditRun& run, const RunFolder& folder);
 struct LoopTrips {
   double probes = 0, lobes = 0, rounds = 0;
 };
+void fields(auto& archive, Is<LoopTrips> auto& value) {
+  archive("probes", value.probes);
+  archive("lobes", value.lobes);
+  archive("rounds", value.rounds);
+}
 
 /// The costs of one method.
 struct MethodCosts {
@@ -68,6 +83,14 @@ struct MethodCosts {
   double pixels = 0;  ///< that the object covers
   std::vector<GpuCost> gpus;
 };
+void fields(auto& archive, Is<MethodCosts> auto& value) {
+  archive("method", value.method);
+  archive("trips", value.trips);
+  archive("lookups", value.lookups);
+  archive("map_bytes", value.map_bytes);
+  archive("pixels", value.pixels);
+  archive("gpus", value.gpus);
+}
 
 /// The costs of some methods over one scene: the content of cost.json.
 struct CostReport {
@@ -80,6 +103,17 @@ struct CostReport {
   double distance = 1;
   std::vector<MethodCosts> methods;
 };
+void fields(auto& archive, Is<CostReport> auto& value) {
+  archive("schema", value.schema);
+  archive("tool", value.tool);
+  archive("backend", value.backend);
+  archive("scene", value.scene);
+  archive("footprint", value.footprint);
+  archive("compiler", value.compiler);
+  archive("size", value.size);
+  archive("distance", value.distance);
+  archive("methods", value.methods);
+}
 
 /// One Markdown table per GPU: a line per method, with its cost over that of the first method.
 [[nodiscard]] std::string cost_table(const CostReport& report);
@@ -97,6 +131,11 @@ struct NdfImages {
   std::string picture;     ///< PNG of the same in false colour
   std::string difference;  ///< PNG of |method - exact| on the same scale; empty for the exact NDF
 };
+void fields(auto& archive, Is<NdfImages> auto& value) {
+  archive("density", value.density);
+  archive("picture", value.picture);
+  archive("difference", value.difference);
+}
 
 /// One method's effective NDF next to the exact one. Figures that are not finite could not be measured.
 struct NdfRecord {
@@ -107,6 +146,14 @@ struct NdfRecord {
   std::map<std::string, std::variant<double, std::string>> options;
   NdfImages images;
 };
+void fields(auto& archive, Is<NdfRecord> auto& value) {
+  archive("l2", value.l2);
+  archive("energy", value.energy);
+  archive("peak", value.peak);
+  archive("lobes", value.lobes);
+  archive("options", value.options);
+  archive("images", value.images);
+}
 
 /// The exact NDF of the footprint.
 struct ExactNdfRecord {
@@ -117,6 +164,17 @@ struct ExactNdfRecord {
     std::string density, picture;
   } images = {};
 };
+void fields(auto& archive, Is<ExactNdfRecord::Images> auto& value) {
+  archive("density", value.density);
+  archive("picture", value.picture);
+}
+
+void fields(auto& archive, Is<ExactNdfRecord> auto& value) {
+  archive("energy", value.energy);
+  archive("expected_energy", value.expected_energy);
+  archive("peak", value.peak);
+  archive("images", value.images);
+}
 
 /// The content of ndf.json.
 struct NdfResults {
@@ -157,6 +215,62 @@ struct NdfResults {
   std::vector<std::pair<std::string, NdfRecord>> methods = {};  ///< by their names as written
   std::vector<std::string> notes = {};                          ///< what was left out or supplied, one line each
 };
+void fields(auto& archive, Is<NdfResults::Source> auto& value) {
+  archive("path", value.path);
+  archive("kind", value.kind);
+  archive("material", value.material);
+  archive("width", value.width);
+  archive("height", value.height);
+}
+
+void fields(auto& archive, Is<NdfResults::Lobe> auto& value) {
+  archive("narrowest", value.narrowest);
+  archive("varies", value.varies);
+}
+
+void fields(auto& archive, Is<NdfResults::Region> auto& value) {
+  archive("u0", value.u0);
+  archive("v0", value.v0);
+  archive("u1", value.u1);
+  archive("v1", value.v1);
+}
+
+void fields(auto& archive, Is<NdfResults::Texels> auto& value) {
+  archive("area", value.area);
+  archive("valid_share", value.valid_share);
+  archive("distinct", value.distinct);
+}
+
+void fields(auto& archive, Is<NdfResults::Fetch> auto& value) {
+  archive("level", value.level);
+  archive("filter", value.filter);
+}
+
+void fields(auto& archive, Is<NdfResults::Grid> auto& value) {
+  archive("resolution", value.resolution);
+  archive("directions", value.directions);
+  archive("fine_enough", value.fine_enough);
+}
+
+void fields(auto& archive, Is<NdfResults::Pictures> auto& value) {
+  archive("scale", value.scale);
+  archive("strip", value.strip);
+}
+
+void fields(auto& archive, Is<NdfResults> auto& value) {
+  archive("schema", value.schema);
+  archive("tool", value.tool);
+  archive("source", value.source);
+  archive("lobe", value.lobe);
+  archive("footprint", value.footprint);
+  archive("texels", value.texels);
+  archive("fetch", value.fetch);
+  archive("grid", value.grid);
+  archive("pictures", value.pictures);
+  archive("truth", value.truth);
+  archive("methods", value.methods);
+  archive("notes", value.notes);
+}
 
 /// The grid is too coarse if its integral of the exact NDF differs from the lobes' own by a larger share.
 inline constexpr double ndf_energy_tolerance = 0.005;

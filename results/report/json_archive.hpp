@@ -1,5 +1,4 @@
-// Values as JSON and back. The fields of a structure are its members, by their names. One that differs from its
-// document lists its fields once, by `fields(archive, value)` in its namespace, before it is written or read:
+// Values as JSON and back. A structure lists its fields once, beside it, by a function of its namespace:
 //   void fields(auto& archive, Is<Flicker> auto& value) { archive("mean", value.mean); ... }
 // An enumeration gives its words by `words_of(value)`. A number that is not finite is null, like an absent value.
 #pragma once
@@ -18,16 +17,18 @@
 
 #include "renderer/core/members.hpp"
 #include "renderer/core/names.hpp"
+#include "results/report/fields.hpp"
 
 namespace footprint {
-
-/// `Value` is `Type` or const `Type`: one list of fields serves the writer and the reader.
-template <class Value, class Type>
-concept Is = std::same_as<std::remove_const_t<Value>, Type>;
 
 /// Pairs of a name and a value: a map, or a list in its own order.
 template <class T>
 concept IsObject = std::ranges::range<T> && std::is_convertible_v<decltype(T::value_type::first), std::string>;
+
+/// Whether a structure lists no fields, and has its members by their C++ names as fields. For documents that only this
+/// program reads, such as caches and hashes, where a renamed member does no harm.
+template <class T>
+inline constexpr bool is_private_document = false;
 
 /// The address of a member as an argument of a template, whose name the compiler then writes out.
 template <class T>
@@ -38,7 +39,7 @@ struct MemberAddress {
 
 /// The name in C++ of the member at an address.
 template <MemberAddress member>
-[[nodiscard]] constexpr std::string member_name() {
+[[nodiscard]] std::string member_name() {
   const std::string_view text = __PRETTY_FUNCTION__;  // "... = {(& example<Flicker>.footprint::Flicker::mean)}; ..."
   const std::size_t end = text.find_last_not_of(')', text.rfind('}') - 1) + 1;
   const std::size_t start = text.find_last_of(":.", end) + 1;
@@ -56,23 +57,13 @@ template <class T, std::size_t i>
   return member_name<member>();
 }
 
-/// Whether a structure's fields are those of the structure that has it as a member, and not an object in it.
-template <class T>
-inline constexpr bool is_spread = false;
-
-/// Every member of a structure that has no list of its own.
+/// Every member of the structure of a private document.
 template <class Archive, class Structure>
+requires is_private_document<std::remove_const_t<Structure>>
 void fields(Archive& archive, Structure& value) {
   const auto members = members_of(value);
-  const auto add_one = [&]<class Member>(const std::string& name, Member& member) {
-    if constexpr (is_spread<std::remove_const_t<Member>>) {
-      fields(archive, member);
-    } else {
-      archive(name.c_str(), member);
-    }
-  };
   const auto add = [&]<std::size_t... i>(std::index_sequence<i...> /*all*/) {
-    (add_one(member_name_of<std::remove_const_t<Structure>, i>(), std::get<i>(members)), ...);
+    (archive(member_name_of<std::remove_const_t<Structure>, i>().c_str(), std::get<i>(members)), ...);
   };
   add(std::make_index_sequence<std::tuple_size_v<decltype(members)>>());
 }

@@ -58,11 +58,69 @@ TEST(JsonArchive, TheCurveSideComesBack) {
   EXPECT_FALSE(from_json_value<Record>(to_json_value(Record{})).equivalent);
 }
 
-TEST(JsonArchive, MembersAreFieldsByTheirNamesInOrder) {
+TEST(JsonArchive, FieldsAreInTheOrderOfTheirList) {
   std::vector<std::string> names;
   const Json pair = to_json_value(MethodPair{});
   for (const auto& [name, value] : pair.items()) names.push_back(name);
   EXPECT_THAT(names, testing::ElementsAre("distance", "methods", "closer", "materials", "picture"));
+}
+
+struct Renamed {
+  int now = 3;
+};
+void fields(auto& archive, Is<Renamed> auto& value) { archive("before", value.now); }
+
+TEST(JsonArchive, AFieldKeepsItsNameWhenItsMemberIsRenamed) {
+  EXPECT_EQ(to_json_value(Renamed{}).dump(), R"({"before":3})");
+  EXPECT_EQ(from_json_value<Renamed>(Json{{"before", 5}}).now, 5);
+}
+
+struct Unlisted {
+  int value = 0;
+};
+
+template <class T>
+concept Listed = requires(JsonWriter& writer, const T& value) {
+  fields(writer, value);
+};
+
+TEST(JsonArchive, AStructureWithoutAListIsNotWritten) {
+  EXPECT_TRUE(Listed<Renamed>);
+  EXPECT_FALSE(Listed<Unlisted>);
+}
+
+struct FieldCount {
+  std::size_t count = 0;
+  void operator()(const char* /*name*/, const auto& /*value*/) { ++count; }
+};
+
+template <class T>
+void expect_every_member() {
+  FieldCount fields_of_it;
+  const T value{};
+  fields(fields_of_it, value);
+  EXPECT_EQ(fields_of_it.count, member_count<T>()) << to_json_value(value).dump();
+}
+
+TEST(JsonArchive, NoMemberIsForgotten) {
+  expect_every_member<FrameTime>();
+  expect_every_member<TimeRatio>();
+  expect_every_member<ErrorCauses>();
+  expect_every_member<PixelCounts>();
+  expect_every_member<FlickerCauses>();
+  expect_every_member<OtherReference>();
+  expect_every_member<RecordImages>();
+  expect_every_member<MaterialError>();
+  expect_every_member<MethodPair>();
+  expect_every_member<SupersamplingPoint>();
+  expect_every_member<FootprintNdf>();
+  expect_every_member<QuantityFigure>();
+  expect_every_member<PublishedFigure>();
+  expect_every_member<SecondVerdict>();
+  expect_every_member<ExperimentReport>();
+  expect_every_member<SceneInfo>();
+  expect_every_member<ReferenceInfo>();
+  expect_every_member<HistorySettings>();
 }
 
 TEST(JsonArchive, AnotherDocumentIsRefused) {

@@ -18,6 +18,10 @@ struct MarkdownColumn {
   std::string title;
   bool numeric = true;  ///< aligned right
 };
+void fields(auto& archive, Is<MarkdownColumn> auto& value) {
+  archive("title", value.title);
+  archive("numeric", value.numeric);
+}
 
 /// `text` with the characters that mean something in Markdown or HTML escaped, line breaks as spaces.
 [[nodiscard]] std::string markdown_escaped(const std::string& text);
@@ -28,6 +32,11 @@ struct Table {
   std::vector<MarkdownColumn> columns = {};
   std::vector<std::vector<std::string>> rows = {};  ///< one cell per column
 };
+void fields(auto& archive, Is<Table> auto& value) {
+  archive("heading", value.heading);
+  archive("columns", value.columns);
+  archive("rows", value.rows);
+}
 
 /// The table under its heading, every cell escaped; empty without rows.
 [[nodiscard]] std::string html_table(const Table& table);
@@ -61,12 +70,24 @@ struct PageImage {
   std::string error = {}, flip = {};  ///< maps against the first image of the view, PNG; empty: none
   std::string caption = {};
 };
+void fields(auto& archive, Is<PageImage> auto& value) {
+  archive("name", value.name);
+  archive("png", value.png);
+  archive("values", value.values);
+  archive("error", value.error);
+  archive("flip", value.flip);
+  archive("caption", value.caption);
+}
 
 /// The images of one view, at least one; the first is the reference.
 struct PageView {
   std::string label;
   std::vector<PageImage> images;
 };
+void fields(auto& archive, Is<PageView> auto& value) {
+  archive("label", value.label);
+  archive("images", value.images);
+}
 
 /// A candidate in a plot of error against cost.
 struct PagePoint {
@@ -75,6 +96,14 @@ struct PagePoint {
   double y = 0;                     ///< its error
   bool chosen = false;
 };
+void fields(auto& archive, Is<PagePoint> auto& value) {
+  archive("name", value.name);
+  archive("x", value.x);
+  archive("low", value.low);
+  archive("high", value.high);
+  archive("y", value.y);
+  archive("chosen", value.chosen);
+}
 
 /// Error against cost, on logarithmic axes.
 struct PagePlot {
@@ -82,6 +111,12 @@ struct PagePlot {
   std::vector<PagePoint> points = {};
   std::optional<double> most_x = {}, most_y = {};  ///< limits, drawn as lines
 };
+void fields(auto& archive, Is<PagePlot> auto& value) {
+  archive("title", value.title);
+  archive("points", value.points);
+  archive("most_x", value.most_x);
+  archive("most_y", value.most_y);
+}
 
 /// A section of its own: what it has of these, in this order.
 struct PageSection {
@@ -93,6 +128,15 @@ struct PageSection {
   std::optional<std::size_t> marked = {};  ///< row of the table
   std::vector<std::string> links = {};     ///< pages, relative to this one
 };
+void fields(auto& archive, Is<PageSection> auto& value) {
+  archive("heading", value.heading);
+  archive("sentences", value.sentences);
+  archive("command", value.command);
+  archive("plot", value.plot);
+  archive("table", value.table);
+  archive("marked", value.marked);
+  archive("links", value.links);
+}
 
 struct Page {
   std::string title, eyebrow = {}, lede = {};

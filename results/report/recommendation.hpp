@@ -22,6 +22,17 @@ struct Candidate {
   std::uint64_t bytes = 0;  ///< that are baked of the material
   double bake_seconds = 0;  ///< for the whole scene
 };
+void fields(auto& archive, Is<Candidate> auto& value) {
+  archive("method", value.method);
+  archive("footprint", value.footprint);
+  archive("errors", value.errors);
+  archive("error", value.error);
+  archive("worst", value.worst);
+  archive("noise", value.noise);
+  archive("cost", value.cost);
+  archive("bytes", value.bytes);
+  archive("bake_seconds", value.bake_seconds);
+}
 
 /// At most one is given.
 struct Limits {
@@ -30,6 +41,12 @@ struct Limits {
   std::string gpu{};                       ///< on which costs are estimated; empty: costs are frame times
   std::optional<std::uint64_t> max_bytes;  ///< of the material: the best within it
 };
+void fields(auto& archive, Is<Limits> auto& value) {
+  archive("max_error", value.max_error);
+  archive("max_cost", value.max_cost);
+  archive("gpu", value.gpu);
+  archive("max_bytes", value.max_bytes);
+}
 
 /// The choice among candidates. Indices are into the candidates.
 struct Choice {
@@ -39,6 +56,13 @@ struct Choice {
   std::optional<std::size_t> nearest;  ///< where none is chosen: the one that comes closest to the limit
   bool filter_nothing = false;  ///< the chosen one is plain `direct`, and no candidate gains more than noise over it
 };
+void fields(auto& archive, Is<Choice> auto& value) {
+  archive("chosen", value.chosen);
+  archive("tied", value.tied);
+  archive("better", value.better);
+  archive("nearest", value.nearest);
+  archive("filter_nothing", value.filter_nothing);
+}
 
 /// `direct` under the trilinear filter: no filtering at all.
 [[nodiscard]] bool is_plain(const Candidate& candidate);
@@ -67,6 +91,16 @@ struct MaterialAdvice {
   std::vector<std::string> words;  ///< advice_sentences of all this
   std::vector<Candidate> candidates;
 };
+void fields(auto& archive, Is<MaterialAdvice> auto& value) {
+  archive("material", value.material);
+  archive("distances", value.distances);
+  archive("pixels", value.pixels);
+  fields(archive, value.choice);
+  archive("closer_than_plain", value.closer_than_plain);
+  archive("command", value.command);
+  archive("words", value.words);
+  archive("candidates", value.candidates);
+}
 
 /// A picture pair of the page: reference and method at a distance, as paths from the output folder.
 struct AdvicePicture {
@@ -80,6 +114,10 @@ struct LeftOutMethod {
   std::string method;
   std::string reason;  ///< as the error says it
 };
+void fields(auto& archive, Is<LeftOutMethod> auto& value) {
+  archive("method", value.method);
+  archive("reason", value.reason);
+}
 
 /// A whole recommendation.
 struct Recommendation {

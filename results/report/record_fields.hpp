@@ -1,10 +1,12 @@
-// The fields of results.json, matrix.json, region.json, ndf.json and recommend.json that are not the members of a
-// structure as they are, listed once for the writer, the reader (json_archive.hpp) and the schemas of docs/.
+// The fields of results.json, matrix.json, region.json, ndf.json and recommend.json that are not listed beside their
+// structure: those of structures of the renderer, and those that differ from the members. Listed once for the writer,
+// the reader (json_archive.hpp) and the schemas of docs/.
 #pragma once
 
 #include <charconv>
 
 #include "results/report/command_reports.hpp"
+#include "results/report/figure_table.hpp"
 #include "results/report/figures.hpp"
 #include "results/report/json_archive.hpp"
 #include "results/report/ranking.hpp"
@@ -13,13 +15,6 @@
 #include "results/report/report.hpp"
 
 namespace footprint {
-
-template <>
-inline constexpr bool is_spread<ErrorCauses> = true;
-template <>
-inline constexpr bool is_spread<FlickerCauses> = true;
-template <>
-inline constexpr bool is_spread<Choice> = true;
 
 /// Reads a number of samples and its bound ("<1", ">64", "" or "n/a") as equivalent_spp and equivalent_bound write
 /// them.
@@ -30,6 +25,18 @@ inline constexpr bool is_spread<Choice> = true;
   const char* last = bound.data() + bound.size();
   if (bound.size() < 2 || std::from_chars(bound.data() + 1, last, end.spp).ptr != last) return {};
   return end;
+}
+
+void fields(auto& archive, Is<HistorySettings> auto& value) {
+  archive("frames", value.frames);
+  archive("alpha", value.alpha);
+  archive("clamp", value.clamp);
+  archive("jitter", value.jitter);
+}
+
+void fields(auto& archive, Is<FlickerFigures> auto& value) {
+  archive("mean", value.mean);
+  archive("p99", value.p99);
 }
 
 void fields(auto& archive, Is<GpuCost> auto& value) {
@@ -56,6 +63,19 @@ void fields(auto& archive, Is<GpuCost> auto& value) {
   archive("vertex_instructions", value.vertex_instructions);
   archive("compile_seconds", value.compile_seconds);
   archive("failure", value.failure);
+}
+
+void fields(auto& archive, Is<RecordError> auto& value) {
+  for (const Figure& figure : record_figures()) {
+    const auto add = [&](auto member) { archive(metric_name(figure), value.*member); };
+    if (figure.metric) std::visit(add, *figure.metric);
+  }
+  archive("luminances", value.luminances);
+  archive("reference_luminances", value.reference_luminances);
+  archive("noise_floor", value.noise_floor);
+  archive("representation", value.representation);
+  archive("filtering", value.filtering);
+  fields(archive, value.causes);
 }
 
 template <class Archive>

@@ -1,5 +1,5 @@
-// The measurements of a run as plain values: the content of results.json (results.md), free of GL and of files. Members
-// have the names and the order of the fields there, but for the structures of record_fields.hpp.
+// The measurements of a run as plain values: the content of results.json (results.md), free of GL and of files. Each
+// structure lists its fields there; those that differ from their members are in record_fields.hpp.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include "renderer/core/names.hpp"
 #include "renderer/image/metrics.hpp"
 #include "renderer/pipeline/history_settings.hpp"
+#include "results/report/fields.hpp"
 
 namespace footprint {
 
@@ -48,11 +49,21 @@ constexpr const auto& words_of(BuildTiming /*timing*/) { return build_timing_wor
 struct FrameTime {
   double median = 0, min = 0, p90 = 0;  ///< milliseconds
 };
+void fields(auto& archive, Is<FrameTime> auto& value) {
+  archive("median", value.median);
+  archive("min", value.min);
+  archive("p90", value.p90);
+}
 
 /// Frame time over `direct`'s, pair by pair: the median, and the 95% interval of that median (median_interval).
 struct TimeRatio {
   double median = 0, low = 0, high = 0;
 };
+void fields(auto& archive, Is<TimeRatio> auto& value) {
+  archive("median", value.median);
+  archive("low", value.low);
+  archive("high", value.high);
+}
 
 /// The causes of an error: normalised colour errors over parts of the object's pixels; metrics.md. None: no such
 /// pixel, or its image was not rendered.
@@ -65,6 +76,15 @@ struct ErrorCauses {
   std::optional<double> method = {};    ///< of the picture against that of `exact`, over the same
   std::optional<double> light;          ///< of the lookup of an environment by lobes, over the pixels for light
 };
+void fields(auto& archive, Is<ErrorCauses> auto& value) {
+  archive("shading", value.shading);
+  archive("shading_floor", value.shading_floor);
+  archive("shading_noise", value.shading_noise);
+  archive("edges", value.edges);
+  archive("filter", value.filter);
+  archive("method", value.method);
+  archive("light", value.light);
+}
 
 /// How many pixels errors are taken over.
 struct PixelCounts {
@@ -75,18 +95,18 @@ struct PixelCounts {
   std::optional<std::size_t> bound;  ///< of those, that `exact` was drawn of; none: it was not drawn
   std::optional<std::size_t> light;  ///< of those, that were lit by all of an environment; none without one
 };
+void fields(auto& archive, Is<PixelCounts> auto& value) {
+  archive("object", value.object);
+  archive("unresolved", value.unresolved);
+  archive("interior", value.interior);
+  archive("minified", value.minified);
+  archive("bound", value.bound);
+  archive("light", value.light);
+}
 
-/// Errors of one picture; metrics.md. Absent figures are null in the JSON and "n/a" in tables.
-struct RecordError {
-  double normalized_color = 0;
-  double relative_rmse = 0;
-  double relmse = 0;
-  double psnr = 0;  ///< dB; infinite for equal pictures (null in the JSON)
-  double energy_bias = 0;
-  double luminance_distance = 0;
-  std::array<std::uint32_t, 32> luminances{},
-      reference_luminances{};         ///< pixels by luminance, in even bins from 0 to 1
-  std::optional<double> noise_floor;  ///< normalised colour error that the reference's own noise causes
+/// Errors of one picture; metrics.md. Absent and infinite figures are null in the JSON and "n/a" in tables.
+struct RecordError : ErrorFigures {
+  std::optional<double> noise_floor = {};  ///< normalised colour error that the reference's own noise causes
   /// Normalised colour errors: of the method's finest level, supersampled, and against it. None: it was not drawn.
   std::optional<double> representation = {}, filtering = {};
   ErrorCauses causes = {};
@@ -101,6 +121,12 @@ struct FlickerCauses {
       {};  ///< of `exact` under the same footprint filter, over its pixels in both frames
   std::optional<FlickerFigures> method = {};  ///< of the picture against that of `exact`, over the same
 };
+void fields(auto& archive, Is<FlickerCauses> auto& value) {
+  archive("shading", value.shading);
+  archive("edges", value.edges);
+  archive("filter", value.filter);
+  archive("method", value.method);
+}
 
 /// The change of an image from frame to frame that the reference does not have; metrics.md.
 struct Flicker {
@@ -110,6 +136,13 @@ struct Flicker {
   std::optional<double> ghosting = {};     ///< error where the reference got darker (trailing_edges); none: nowhere
   FlickerCauses causes = {};
 };
+void fields(auto& archive, Is<Flicker> auto& value) {
+  archive("mean", value.mean);
+  archive("p99", value.p99);
+  archive("noise_floor", value.noise_floor);
+  archive("ghosting", value.ghosting);
+  fields(archive, value.causes);
+}
 
 /// The error against another reference, of another count of samples.
 struct OtherReference {
@@ -117,6 +150,11 @@ struct OtherReference {
   double normalized_color = 0;
   std::optional<double> noise_floor = {};
 };
+void fields(auto& archive, Is<OtherReference> auto& value) {
+  archive("spp", value.spp);
+  archive("normalized_color", value.normalized_color);
+  archive("noise_floor", value.noise_floor);
+}
 
 /// Pictures of one record, as paths relative to the output folder.
 struct RecordImages {
@@ -128,6 +166,15 @@ struct RecordImages {
   std::string interior;        ///< EXR, white where a pixel is interior, with a .png
   std::string standard_error;  ///< EXR, the reference's own in each pixel and channel
 };
+void fields(auto& archive, Is<RecordImages> auto& value) {
+  archive("color", value.color);
+  archive("reference", value.reference);
+  archive("error", value.error);
+  archive("error_shared", value.error_shared);
+  archive("flip", value.flip);
+  archive("interior", value.interior);
+  archive("standard_error", value.standard_error);
+}
 
 /// The error of one picture over the interior pixels that show one material.
 struct MaterialError {
@@ -137,6 +184,13 @@ struct MaterialError {
   std::optional<double> noise;    ///< its standard error, of the reference's noise
   std::uint64_t bytes = 0;        ///< that the method baked of the material
 };
+void fields(auto& archive, Is<MaterialError> auto& value) {
+  archive("material", value.material);
+  archive("pixels", value.pixels);
+  archive("shading", value.shading);
+  archive("noise", value.noise);
+  archive("bytes", value.bytes);
+}
 
 /// One method in one view.
 struct Record {
@@ -186,6 +240,13 @@ struct MethodPair {
   std::vector<std::array<double, 2>> materials{};
   std::string picture;  ///< of that over the object, PNG: blue the first, orange the second, grey neither
 };
+void fields(auto& archive, Is<MethodPair> auto& value) {
+  archive("distance", value.distance);
+  archive("methods", value.methods);
+  archive("closer", value.closer);
+  archive("materials", value.materials);
+  archive("picture", value.picture);
+}
 
 /// The mean of so many frames of `direct`, at one distance; that of one is the frame at pixel centres.
 struct SupersamplingPoint {
@@ -196,12 +257,24 @@ struct SupersamplingPoint {
   double ms = 0;
   std::string node = {};  ///< the machine that it was timed on
 };
+void fields(auto& archive, Is<SupersamplingPoint> auto& value) {
+  archive("distance", value.distance);
+  archive("spp", value.spp);
+  archive("normalized_color", value.normalized_color);
+  archive("shading", value.shading);
+  archive("ms", value.ms);
+  archive("node", value.node);
+}
 
 /// The upper end of the scale of a distance's false-colour images.
 struct ErrorScale {
   double distance = 1;
   double error = 0;  ///< normalised colour error
 };
+void fields(auto& archive, Is<ErrorScale> auto& value) {
+  archive("distance", value.distance);
+  archive("error", value.error);
+}
 
 /// The effective NDF of one footprint by one method, beside the exact one (renderer/ndf).
 struct FootprintNdf {
@@ -213,6 +286,15 @@ struct FootprintNdf {
   int lobes = 0;          ///< evaluated per pixel
   std::string picture;    ///< of all methods and the exact NDF, PNG, from the output folder
 };
+void fields(auto& archive, Is<FootprintNdf> auto& value) {
+  archive("footprint", value.footprint);
+  archive("method", value.method);
+  archive("l2", value.l2);
+  archive("energy", value.energy);
+  archive("peak", value.peak);
+  archive("lobes", value.lobes);
+  archive("picture", value.picture);
+}
 
 /// A figure of a method that no image shows, by its name in an experiment.
 struct QuantityFigure {
@@ -221,6 +303,12 @@ struct QuantityFigure {
   std::string quantity;  ///< what the method calls it
   double value = 0;
 };
+void fields(auto& archive, Is<QuantityFigure> auto& value) {
+  archive("name", value.name);
+  archive("method", value.method);
+  archive("quantity", value.quantity);
+  archive("value", value.value);
+}
 
 /// The verdict on a claim, measured or expected.
 enum class Verdict {
@@ -230,7 +318,9 @@ enum class Verdict {
 };
 
 /// As reports write it.
-inline constexpr auto verdict_words = own_words<Verdict::reproduced, Verdict::not_reproduced, Verdict::undecided>;
+inline constexpr auto verdict_words = std::to_array<Word<Verdict>>({{Verdict::reproduced, "reproduced"},
+                                                                    {Verdict::not_reproduced, "not_reproduced"},
+                                                                    {Verdict::undecided, "undecided"}});
 constexpr const auto& words_of(Verdict /*verdict*/) { return verdict_words; }
 
 /// Whose statement a claim is. Only a paper's own count as reproduced or not; the others are counted apart.
@@ -243,9 +333,11 @@ enum class ClaimSource {
 };
 
 /// As experiment files and reports write it, the paper's own first.
-inline constexpr auto claim_source_words =
-    own_words<ClaimSource::paper, ClaimSource::gpu_time, ClaimSource::closed_form, ClaimSource::our_measure,
-              ClaimSource::ours>;
+inline constexpr auto claim_source_words = std::to_array<Word<ClaimSource>>({{ClaimSource::paper, "paper"},
+                                                                             {ClaimSource::gpu_time, "gpu_time"},
+                                                                             {ClaimSource::closed_form, "closed_form"},
+                                                                             {ClaimSource::our_measure, "our_measure"},
+                                                                             {ClaimSource::ours, "ours"}});
 constexpr const auto& words_of(ClaimSource /*source*/) { return claim_source_words; }
 
 /// A figure that a paper prints, and the one that was measured.
@@ -257,6 +349,14 @@ struct PublishedFigure {
   std::optional<double> measured = {};
   std::string note;  ///< how the paper measured, or why it is not measured here
 };
+void fields(auto& archive, Is<PublishedFigure> auto& value) {
+  archive("figure", value.figure);
+  archive("measure", value.measure);
+  archive("unit", value.unit);
+  archive("published", value.published);
+  archive("measured", value.measured);
+  archive("note", value.note);
+}
 
 /// A figure that a claim was decided by.
 struct ClaimFigure {
@@ -264,6 +364,11 @@ struct ClaimFigure {
   double value = 0;
   bool at_noise_floor = false;  ///< an error that the reference's own noise explains
 };
+void fields(auto& archive, Is<ClaimFigure> auto& value) {
+  archive("measure", value.measure);
+  archive("value", value.value);
+  archive("at_noise_floor", value.at_noise_floor);
+}
 
 /// The outcome of a claim.
 struct ClaimOutcome {
@@ -294,6 +399,14 @@ struct SecondVerdict {
   Verdict outcome = Verdict::undecided;
   std::string problem;  ///< of an undecided one
 };
+void fields(auto& archive, Is<SecondVerdict> auto& value) {
+  archive("claim", value.claim);
+  archive("gpu", value.gpu);
+  archive("left", value.left);
+  archive("right", value.right);
+  archive("outcome", value.outcome);
+  archive("problem", value.problem);
+}
 
 /// An upper bound and what was measured.
 struct ThresholdOutcome {
@@ -320,11 +433,27 @@ struct ExperimentReport {
   /// Claims and thresholds that did not come out as they should, one line each.
   [[nodiscard]] std::vector<std::string> shortfalls() const;
 };
+void fields(auto& archive, Is<ExperimentReport> auto& value) {
+  archive("name", value.name);
+  archive("title", value.title);
+  archive("description", value.description);
+  archive("file", value.file);
+  archive("quick", value.quick);
+  archive("published", value.published);
+  archive("claims", value.claims);
+  archive("second_verdicts", value.second_verdicts);
+  archive("thresholds", value.thresholds);
+  archive("pictures", value.pictures);
+}
 
 struct ToolInfo {
   std::string name = "footprint";
   std::string version;
 };
+void fields(auto& archive, Is<ToolInfo> auto& value) {
+  archive("name", value.name);
+  archive("version", value.version);
+}
 
 struct BackendInfo {
   std::string name;      ///< egl, egl-device, osmesa
@@ -332,6 +461,12 @@ struct BackendInfo {
   std::string version;   ///< GL_VERSION
   std::string cpu = {};  ///< processor model and core count: times mean nothing without them
 };
+void fields(auto& archive, Is<BackendInfo> auto& value) {
+  archive("name", value.name);
+  archive("renderer", value.renderer);
+  archive("version", value.version);
+  archive("cpu", value.cpu);
+}
 
 struct SceneInfo {
   std::string name, source;
@@ -341,6 +476,17 @@ struct SceneInfo {
   std::vector<std::string> defaults;  ///< what was supplied because the input has none
   std::vector<std::string> warnings;  ///< what the input has and the run left out
 };
+void fields(auto& archive, Is<SceneInfo> auto& value) {
+  archive("name", value.name);
+  archive("source", value.source);
+  archive("triangles", value.triangles);
+  archive("materials", value.materials);
+  archive("lights", value.lights);
+  archive("exposure", value.exposure);
+  archive("exposure_source", value.exposure_source);
+  archive("defaults", value.defaults);
+  archive("warnings", value.warnings);
+}
 
 struct ReferenceInfo {
   int spp = 0;
@@ -352,18 +498,35 @@ struct ReferenceInfo {
   double seconds = 0;  ///< that its pictures took, all distances together
   std::optional<std::string> environment = {};  ///< sampled or dense; none: the scene has no environment
 };
+void fields(auto& archive, Is<ReferenceInfo> auto& value) {
+  archive("spp", value.spp);
+  archive("filter", value.filter);
+  archive("seed", value.seed);
+  archive("standard_errors", value.standard_errors);
+  archive("samples", value.samples);
+  archive("seconds", value.seconds);
+  archive("environment", value.environment);
+}
 
 /// The repeats behind the medians of frame times.
 struct TimingInfo {
   int frames = 0;     ///< of each method and distance in each process, those of all methods in turn
   int processes = 0;  ///< one after the other
 };
+void fields(auto& archive, Is<TimingInfo> auto& value) {
+  archive("frames", value.frames);
+  archive("processes", value.processes);
+}
 
 /// The way of an animation.
 struct AnimationWay {
   std::string path;                                ///< zoom, orbit, light or animation
   std::optional<std::array<double, 3>> axis = {};  ///< of the rotation, unit, in world space; none: nothing turns
 };
+void fields(auto& archive, Is<AnimationWay> auto& value) {
+  archive("path", value.path);
+  archive("axis", value.axis);
+}
 
 /// The coordinates of a member of a [matrix]: each axis with its value, as the file writes them.
 using Coordinates = std::vector<std::pair<std::string, std::string>>;

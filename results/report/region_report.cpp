@@ -14,7 +14,7 @@
 namespace footprint {
 namespace {
 
-constexpr std::string_view legend = "● true, ○ false, – undecided";
+constexpr std::string_view verdict_legend = "● true, ○ false, – undecided";
 
 std::string_view dot_of(Verdict verdict) {
   if (verdict == Verdict::undecided) return "–";
@@ -76,7 +76,7 @@ std::string heading_of(const RegionReport& report) {
 }
 
 std::string lede_of(const RegionReport& report) {
-  return fmt::format("{} settings of what the paper leaves open. {}.{}", report.settings.size(), legend,
+  return fmt::format("{} settings of what the paper leaves open. {}.{}", report.settings.size(), verdict_legend,
                      report.quick ? " Test run (--quick): no measurement." : "");
 }
 

@@ -16,12 +16,20 @@ struct RegionAxis {
   std::string key;  ///< the setting: "distance", "size", or a method of which options vary
   std::vector<std::string> values = {};
 };
+void fields(auto& archive, Is<RegionAxis> auto& value) {
+  archive("key", value.key);
+  archive("values", value.values);
+}
 
 /// One point of the grid.
 struct RegionSetting {
   std::string name;  ///< its folder
   Coordinates values;
 };
+void fields(auto& archive, Is<RegionSetting> auto& value) {
+  archive("name", value.name);
+  archive("values", value.values);
+}
 
 /// What became of one claim over the grid.
 struct RegionClaim {
@@ -34,6 +42,15 @@ struct RegionClaim {
   /// How many settings have an outcome.
   [[nodiscard]] std::size_t count(Verdict verdict) const;
 };
+void fields(auto& archive, Is<RegionClaim> auto& value) {
+  archive("name", value.name);
+  archive("text", value.text);
+  archive("inequality", value.inequality);
+  archive("source", value.source);
+  archive("stated", value.stated);
+  archive("outcomes", value.outcomes);
+  archive("sentence", value.sentence);
+}
 
 /// The content of region.json.
 struct RegionReport {

@@ -106,6 +106,9 @@ bool is_best(const Record& record, const DistanceRecords& records) {
 std::vector<std::string_view> page_columns() {
   std::vector<std::string_view> keys{"distance"};
   keys.insert(keys.end(), error_columns.begin(), error_columns.end());
+  for (const Figure& figure : record_figures()) {
+    if (figure.metric && std::ranges::find(keys, figure.key) == keys.end()) keys.emplace_back(figure.key);
+  }
   keys.emplace_back("flicker");
   keys.insert(keys.end(), time_columns.begin(), time_columns.end());
   for (const char* key :
@@ -117,19 +120,18 @@ std::vector<std::string_view> page_columns() {
 Json columns_json() {
   Json columns = Json::array();
   for (const std::string_view key : page_columns()) {
-    const Column& column = column_of(key);
-    columns.push_back({{"key", column.key},
-                       {"place", column.place},
-                       {"title", column.title},
-                       {"meaning", column.meaning},
-                       {"words", column.is_words}});
+    const Figure& figure = figure_of(key);
+    columns.push_back({{"key", figure.key},
+                       {"place", figure.place},
+                       {"title", figure.title},
+                       {"meaning", figure.meaning},
+                       {"words", figure.is_words}});
   }
   return columns;
 }
 
 /// A record's figures as the page prints them, the same as in the table.
-/// json: the record as results.json has it.
-Json display(const Results& results, const Record& record, const Json& json) {
+Json display(const Results& results, const Record& record) {
   const DistanceRecords records = records_at(results, record.distance);
   const std::optional<int> place = rank(record, records);
   Json cells{{"rank", place ? fmt::format("{}", *place) : "–"},
@@ -138,8 +140,8 @@ Json display(const Results& results, const Record& record, const Json& json) {
              {"is_best", is_best(record, records)},
              {"is_fastest", is_fastest(record, records)}};
   for (const std::string_view key : page_columns()) {
-    const Column& column = column_of(key);
-    if (column.format != nullptr) cells[std::string(key)] = cell_text(column, record, json);
+    const Figure& figure = figure_of(key);
+    if (figure.format != nullptr) cells[std::string(key)] = cell_text(figure, record);
   }
   return cells;
 }
@@ -161,10 +163,7 @@ Json run_json(const Results& results, const std::string& folder) {
   Json document = to_json_value(results);
   Json records = Json::array(), distances = Json::array();
   if (!results.way) {
-    for (std::size_t i = 0; i < results.records.size(); ++i) {
-      const Record& record = results.records[i];
-      records.push_back(display(results, record, document.at("records").at(i)));
-    }
+    for (const Record& record : results.records) records.push_back(display(results, record));
     for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
   }
   return {{"folder", folder},
@@ -193,6 +192,12 @@ std::string page_of(Page page, Json runs) {
 
 std::string json_text(const nlohmann::ordered_json& document, int indent) {
   return document.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string results_csv(const Results& results) {
+  std::string csv = csv_header().append(csv_line_end);
+  for (const Record& record : results.records) csv.append(csv_line(record)).append(csv_line_end);
+  return csv;
 }
 
 std::string results_json(const Results& results) { return json_text(to_json_value(results), 2) + "\n"; }

@@ -17,6 +17,9 @@ namespace footprint {
 /// infinities and absent figures as null.
 [[nodiscard]] std::string results_json(const Results& results);
 
+/// One line per record, RFC 4180; the header names every column (figure_table.hpp).
+[[nodiscard]] std::string results_csv(const Results& results);
+
 /// The page, whole and self-contained but for the pictures in `images/` beside it; opens from disk without a network.
 [[nodiscard]] std::string results_page(const Results& results);
 

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "results/report/figures.hpp"
+#include "results/report/figure_table.hpp"
 #include "results/report/record_fields.hpp"
 #include "results/report/report.hpp"
+#include "tests/report/example_animation.hpp"
 #include "tests/report/example_results.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/source_folder.hpp"
@@ -107,7 +108,7 @@ TEST(ResultsCsv, AbsentFiguresAreEmptyAndNamesSurvive) {
 /// The table of docs/reference/results.md: adjacent columns of one unit share a row.
 std::string documented_columns() {
   std::string text = "| columns | unit |\n|---|---|\n", names;
-  const std::span<const Column> columns = record_columns();
+  const std::span<const Figure> columns = record_figures();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (*columns[i].place == '\0') continue;
     names += fmt::format("{}`{}`", names.empty() ? "" : ", ", columns[i].key);
@@ -124,20 +125,54 @@ TEST(ResultsCsv, TheDocumentListsEveryColumnWithItsUnit) {
   EXPECT_TRUE(test::says(document.str(), documented_columns()));
 }
 
-TEST(Columns, HaveKeysOfTheirOwnAndPlacesThatARecordHas) {
-  const nlohmann::ordered_json record = to_json_value(example_results().records[3]);
+TEST(Figures, HaveKeysOfTheirOwn) {
   std::set<std::string_view> keys;
-  for (const Column& column : record_columns()) {
-    EXPECT_TRUE(keys.insert(column.key).second) << column.key;
-    if (*column.place == '\0') continue;
-    // A figure, or null in the place of what has it.
-    nlohmann::ordered_json::json_pointer place(column.place);
-    const bool is_figure = record.contains(place);
-    while (!place.empty() && !record.contains(place)) place.pop_back();
-    const bool is_there = is_figure || (!place.empty() && record.at(place).is_null());
-    EXPECT_TRUE(is_there) << column.place;
+  for (const Figure& figure : record_figures()) EXPECT_TRUE(keys.insert(figure.key).second) << figure.key;
+  EXPECT_THROW((void)figure_of("nothing"), std::logic_error);
+}
+
+/// What results.csv has of a value of results.json.
+std::string csv_text(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return {};
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return fmt::format("{}", value.get<double>());
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [name, part] : value.items())
+    text += (text.empty() ? "" : ";") + (value.is_object() ? name + "=" : "") + csv_text(part);
+  return text;
+}
+
+/// The value at a place of results.json; null where a part of the path is null. Fails if the document has no such
+/// place.
+nlohmann::ordered_json value_at(const nlohmann::ordered_json& record, const char* place) {
+  nlohmann::ordered_json::json_pointer at(place);
+  if (record.contains(at)) return record.at(at);
+  while (!at.empty() && !record.contains(at)) at.pop_back();
+  EXPECT_TRUE(!at.empty() && record.at(at).is_null()) << place;
+  return {};
+}
+
+TEST(Figures, AreTheValuesAtTheirPlacesOfTheJson) {
+  for (const Results& results : {example_results(), hostile_results(), example_animation()}) {
+    const std::vector<Line> lines = read_csv(results_csv(results));
+    for (std::size_t i = 0; i < results.records.size(); ++i) {
+      const nlohmann::ordered_json record = to_json_value(results.records[i]);
+      for (const Figure& figure : record_figures()) {
+        if (*figure.place == '\0') continue;
+        EXPECT_EQ(value(lines, i + 1, std::string(figure.key)), csv_text(value_at(record, figure.place))) << figure.key;
+      }
+    }
   }
-  EXPECT_THROW((void)column_of("nothing"), std::logic_error);
+}
+
+TEST(Figures, OfAnyTwoImagesHaveWhatTablesAndScoresPrint) {
+  for (const Figure& figure : record_figures()) {
+    if (!figure.metric) continue;
+    EXPECT_TRUE(std::string_view(figure.place).starts_with("/error/")) << figure.key;
+    EXPECT_FALSE(figure.title.empty() || figure.meaning.empty() || figure.format == nullptr) << figure.key;
+    EXPECT_FALSE(figure.call.name.empty()) << figure.key;
+  }
 }
 
 }  // namespace

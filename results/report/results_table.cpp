@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -19,10 +18,13 @@
 #include <vector>
 
 #include "renderer/core/memory.hpp"
+#include "results/report/command_reports.hpp"
 #include "results/report/experiment_report.hpp"
+#include "results/report/figure_table.hpp"
+#include "results/report/figures.hpp"
 #include "results/report/page.hpp"
 #include "results/report/ranking.hpp"
-#include "results/report/record_fields.hpp"
+#include "results/report/report.hpp"
 
 namespace footprint {
 namespace {
@@ -48,14 +50,13 @@ Table table_of(std::vector<std::string_view> keys, const DistanceRecords& record
   if (!std::ranges::any_of(records, has_light)) std::erase(keys, "light_error");
   const bool any_marked = std::ranges::any_of(records, shading_at_noise_floor);
   Table table{.columns = {{"Method", false}}};
-  for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
+  for (const std::string_view key : keys) table.columns.push_back({plain(figure_of(key).title)});
   for (const Record& record : records) {
-    const nlohmann::ordered_json json = to_json_value(record);
     std::vector<std::string>& row = table.rows.emplace_back(1, record.method);
     for (const std::string_view key : keys) {
       row.push_back(key == "rank"            ? rank_text(record, records)
                     : key == "shading_error" ? marked_shading(record, any_marked)
-                                             : plain(cell_text(column_of(key), record, json)));
+                                             : plain(cell_text(figure_of(key), record)));
     }
   }
   return table;
@@ -140,12 +141,11 @@ std::string distance_section(const Results& results, double distance) {
 std::string preparation_section(const Results& results) {
   constexpr std::array<std::string_view, 3> keys{"precompute_s", "precompute_bytes", "precompute_bytes_per_texel"};
   Table table{.heading = "Bakes", .columns = {{"Method", false}}};
-  for (const std::string_view key : keys) table.columns.push_back({plain(column_of(key).title)});
+  for (const std::string_view key : keys) table.columns.push_back({plain(figure_of(key).title)});
   table.columns.insert(table.columns.end(), {{"Cached", false}, {"Effects left out", false}});
   for (const Record& record : results.records) {
-    const nlohmann::ordered_json json = to_json_value(record);
     std::vector<std::string> row{record.method};
-    for (const std::string_view key : keys) row.push_back(plain(cell_text(column_of(key), record, json)));
+    for (const std::string_view key : keys) row.push_back(plain(cell_text(figure_of(key), record)));
     row.insert(row.end(), {record.precompute_cached ? "yes" : "no", list_text(record.effects_left_out, "none")});
     if (std::ranges::find(table.rows, row) == table.rows.end()) table.rows.push_back(std::move(row));
   }
@@ -243,10 +243,10 @@ std::string notes() {
   };
   for (const std::string_view key : {"normalized_color_error", "shading_error", "rank", "edges_error", "filter_error",
                                      "method_error", "light_error", "representation_error", "equivalent_spp"})
-    add(column_of(key).title, column_of(key).meaning);
+    add(figure_of(key).title, figure_of(key).meaning);
   add("% of pixels closer than", "Interior pixels in which the row's method is closer to the reference, beyond noise.");
   for (const std::string_view key : {"frame_median_ms", "ratio_to_direct_median"})
-    add(column_of(key).title, column_of(key).meaning);
+    add(figure_of(key).title, figure_of(key).meaning);
   add("Fetches, Lobes", "Texture lookups and lobes per pixel, counted.");
   return text;
 }
@@ -261,34 +261,33 @@ std::string words_section(const Results& results) {
 }
 
 struct MeanColumn {
-  const char *title, *place;  // its heading, and the figure as a JSON pointer into a record
-  bool is_largest = false;    // not the mean
+  const char *title, *key;  // its heading, and the figure
+  bool is_largest = false;  // not the mean
 };
 
-constexpr std::array<MeanColumn, 7> mean_columns{{{"Error", "/error/normalized_color"},
-                                                  {"Floor", "/error/noise_floor"},
-                                                  {"Flicker", "/flicker/mean"},
-                                                  {"Worst frame", "/flicker/mean", true},
-                                                  {"99th perc.", "/flicker/p99"},
-                                                  {"Flicker floor", "/flicker/noise_floor"},
-                                                  {"Highlights", "/highlight_energy"}}};
-constexpr std::array<MeanColumn, 8> cause_columns{{{"Shading", "/flicker/shading/mean"},
-                                                   {"p99", "/flicker/shading/p99"},
-                                                   {"Edges", "/flicker/edges/mean"},
-                                                   {"p99", "/flicker/edges/p99"},
-                                                   {"Filter", "/flicker/filter/mean"},
-                                                   {"p99", "/flicker/filter/p99"},
-                                                   {"Method's own", "/flicker/method/mean"},
-                                                   {"p99", "/flicker/method/p99"}}};
+constexpr std::array<MeanColumn, 7> mean_columns{{{"Error", "normalized_color_error"},
+                                                  {"Floor", "noise_floor"},
+                                                  {"Flicker", "flicker"},
+                                                  {"Worst frame", "flicker", true},
+                                                  {"99th perc.", "flicker_p99"},
+                                                  {"Flicker floor", "flicker_noise_floor"},
+                                                  {"Highlights", "highlight_energy"}}};
+constexpr std::array<MeanColumn, 8> cause_columns{{{"Shading", "flicker_shading"},
+                                                   {"p99", "flicker_shading_p99"},
+                                                   {"Edges", "flicker_edges"},
+                                                   {"p99", "flicker_edges_p99"},
+                                                   {"Filter", "flicker_filter"},
+                                                   {"p99", "flicker_filter_p99"},
+                                                   {"Method's own", "flicker_method"},
+                                                   {"p99", "flicker_method_p99"}}};
 
 /// Over the frames of a method that have the figure; "n/a" without any.
-/// records: as results.json has them.
-std::string mean_text(const nlohmann::ordered_json& records, const std::string& method, const MeanColumn& column) {
+std::string mean_text(const std::vector<Record>& records, const std::string& method, const MeanColumn& column) {
   std::vector<double> figures;
-  const nlohmann::ordered_json::json_pointer place(column.place);
-  for (const nlohmann::ordered_json& record : records) {
-    if (record.at("method") == method && record.contains(place) && record.at(place).is_number())
-      figures.push_back(record.at(place));
+  for (const Record& record : records) {
+    if (record.method != method) continue;
+    const std::optional<double> figure = figure_of(column.key).of(record);
+    if (figure && std::isfinite(*figure)) figures.push_back(*figure);
   }
   if (figures.empty()) return "n/a";
   return error_text(column.is_largest
@@ -296,7 +295,7 @@ std::string mean_text(const nlohmann::ordered_json& records, const std::string& 
                         : std::accumulate(figures.begin(), figures.end(), 0.0) / static_cast<double>(figures.size()));
 }
 
-std::string means_table(const nlohmann::ordered_json& records, const std::vector<std::string>& methods,
+std::string means_table(const std::vector<Record>& records, const std::vector<std::string>& methods,
                         std::span<const MeanColumn> columns) {
   Table table{.columns = {{"Method", false}}};
   for (const MeanColumn& column : columns) table.columns.push_back({column.title});
@@ -472,7 +471,7 @@ std::string path_words(const Results& results) {
 
 std::string animation_table(const Results& results) {
   const std::vector<std::string> methods = methods_in_order(results.records);
-  const nlohmann::ordered_json records = to_json_value(results.records);
+  const std::vector<Record>& records = results.records;
   std::string text = fmt::format("# {}, {} frames: {}\n\n", markdown_escaped(results.scene.name),
                                  results.records.size() / methods.size(), path_words(results)) +
                      means_table(records, methods, mean_columns) +
@@ -485,7 +484,7 @@ pixels; {} in the reference.
 Flicker by cause, mean and 99th percentile:
 
 )",
-                                 mean_text(records, methods.front(), {"", "/reference_highlight_energy"})) +
+                                 mean_text(records, methods.front(), {"", "reference_highlight_energy"})) +
                      means_table(records, methods, cause_columns) +
                      R"(
 Shading: pixels that are interior in both frames. Edges: the object's other pixels. Filter: flicker of the exact sum

@@ -85,7 +85,7 @@ class Comparison {
 void restructure(const Json& structure, Json& schema, Json& root) {
   if (schema.contains("$ref")) return restructure(structure, root.at(target_of(schema)), root);
   if (!may_be_type(value_at(schema, "type"), structure)) schema["type"] = structure["type"];
-  if (!schema.contains("description")) schema["description"] = "";
+  if (!schema.contains("description")) schema["description"] = structure.value("description", "");
   for (const char* key : {"enum", "minItems", "maxItems", "required"}) {
     if (structure.contains(key)) schema[key] = structure[key];
   }

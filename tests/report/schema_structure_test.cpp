@@ -135,6 +135,15 @@ TEST(SchemaDifferences, EachIsAtItsPlace) {
   }
 }
 
+TEST(WithStructure, ANewPropertyHasTheDescriptionOfItsStructure) {
+  Json known = structure();
+  known["properties"]["count"]["description"] = "How many.";
+  Json schema = described();
+  EXPECT_EQ(with_structure(known, schema), schema) << "a description that is there remains";
+  schema["properties"].erase("count");
+  EXPECT_EQ(with_structure(known, schema)["properties"]["count"]["description"], "How many.");
+}
+
 TEST(WithStructure, DescriptionsAndLimitsRemain) {
   Json schema = described();
   schema["properties"]["points"]["items"]["properties"]["x"] = {{"description", "Left."}, {"minimum", 0}};

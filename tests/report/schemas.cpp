@@ -1,5 +1,6 @@
 // Compares the schemas of docs/ with the fields of results/report/record_fields.hpp: footprint_schemas FOLDER.
-// With --write it gives them that structure, and a new property an empty description to fill in.
+// With --write it gives them that structure, and a new property the description of its figure, or an empty one to fill
+// in.
 #include <fmt/format.h>
 
 #include <array>
@@ -24,10 +25,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// The structure of results.json, in which a figure of any two images is described by its row.
+Json results_structure() {
+  Json structure = SchemaArchive::schema_of(Results{});
+  Json& errors = structure["properties"]["records"]["items"]["properties"]["error"]["properties"];
+  for (const Figure& figure : record_figures()) {
+    if (figure.metric)
+      errors[metric_name(figure)]["description"] = fmt::format("{} Unit: {}.", plain(figure.meaning), figure.unit);
+  }
+  return structure;
+}
+
 // Each schema by its file, with the structure that the fields give.
 std::array<std::pair<std::string_view, Json>, 5> structures() {
   const MatrixResults matrix{.report = {}, .left_out = {}, .members = {MatrixMember{}}};
-  return {{{"results.schema.json", SchemaArchive::schema_of(Results{})},
+  return {{{"results.schema.json", results_structure()},
            {"matrix.schema.json", SchemaArchive::schema_of(matrix)},
            {"ndf.schema.json", SchemaArchive::schema_of(NdfResults{})},
            {"recommend.schema.json", SchemaArchive::schema_of(Recommendation{})},

@@ -62,7 +62,8 @@ class Workbench {
       : settings_(settings),
         context_(context),
         progress_(std::move(progress)),
-        scene_(context.shared != nullptr ? Scene{} : scene_for_path(settings, scene_of_run(settings))),
+        poses_(std::make_shared<ScenePoses>(settings)),
+        scene_(context.shared != nullptr ? Scene{} : scene_for_path(settings, scene_of_run(settings, *poses_))),
         views_(plan_views(settings, scene())) {
     require_pictures(frame_size(scene(), settings.view.size), images_at_once(settings));
   }
@@ -79,7 +80,7 @@ class Workbench {
     if (tools_) return *tools_;
     if (context_.finished != nullptr) context_.finished->require_more_allowed(settings_.scene);
     auto prepared = context_.shared != nullptr ? context_.shared->scene
-                                               : std::make_shared<PreparedScene>(std::move(scene_), settings_);
+                                               : std::make_shared<PreparedScene>(std::move(scene_), settings_, poses_);
     tools_ = std::make_unique<Tools>(std::move(prepared), settings_, views_, context_.gpu_compiler, progress_);
     return *tools_;
   }
@@ -89,6 +90,7 @@ class Workbench {
   const CompareContext& context_;
   Progress progress_;  // of staging
   std::unique_ptr<Tools> tools_;
+  std::shared_ptr<ScenePoses> poses_;
   Scene scene_;  // until the tools take it; empty if scenes are shared
   std::vector<PlannedView> views_;
 };

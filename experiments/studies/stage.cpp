@@ -86,12 +86,13 @@ std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& me
   return failure;
 }
 
-PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings)
+PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings, std::shared_ptr<ScenePoses> scene_poses)
     : context(settings.backend.context),
       scene(std::move(loaded)),
       triangles(scene_info(scene, {}).triangles),
       decisions(derive_effects(scene)),
-      effects(effects_on(decisions) & ~settings.without) {
+      effects(effects_on(decisions) & ~settings.without),
+      poses(scene_poses ? std::move(scene_poses) : std::make_shared<ScenePoses>(settings)) {
   require_given_bakes(settings, scene, effects);
 }
 
@@ -210,7 +211,7 @@ View Stage::view(double distance) const {
 
 void Stage::pose_at(double seconds) {
   if (posed_at_ == seconds) return;
-  Scene posed = scene_at_time(settings_, seconds, PlacedBounds{scene().bounds, scene().origin});
+  Scene posed = prepared_->poses->at(seconds, PlacedBounds{scene().bounds, scene().origin});
   const auto same_triangles = [](const Mesh& a, const Mesh& b) {
     return a.indices == b.indices && a.vertices.size() == b.vertices.size();
   };

@@ -64,15 +64,17 @@ struct PreparedMethod {
 /// Shared by stages over one scene: its context, its maps and meshes on the GPU, and the methods that were prepared
 /// for them. The first stage fills it.
 struct PreparedScene {
+  /// poses: of an animation; null: it is loaded for its frames.
   /// Errors (usage): as require_given_bakes.
-  PreparedScene(Scene loaded, const RunSettings& settings);
+  PreparedScene(Scene loaded, const RunSettings& settings, std::shared_ptr<ScenePoses> poses = nullptr);
 
   gl::Context context;
   Scene scene;
   std::size_t triangles;  ///< that were given
   std::vector<EffectDecision> decisions;
   EffectSet effects;
-  std::unique_ptr<GpuScene> gpu;  ///< null before the first stage
+  std::shared_ptr<ScenePoses> poses;  ///< of an animation
+  std::unique_ptr<GpuScene> gpu;      ///< null before the first stage
   /// By name and options of their maps; methods that differ in their history share them.
   std::map<std::string, std::shared_ptr<const PreparedMethod>> methods{};
   PreparedMethod base{};  ///< what the reference draws
@@ -145,7 +147,7 @@ class Stage {
   [[nodiscard]] View view(double distance) const;
 
   /// Moves the lights to where they are in a view, and what an animation moves, shadows included, and returns the
-  /// camera of that view. Errors: as scene_at_time and GpuScene::update.
+  /// camera of that view. Errors: as ScenePoses::at and GpuScene::update.
   [[nodiscard]] View move_to(const RunView& view);
 
   /// Another method over the same scene.

@@ -105,7 +105,8 @@ TEST(Stage, AFrameOfAnAnimationIsThatOfTheScenePosedAtItsTime) {
   settings.view.zoom.frames = 3;
   settings.path.kind = AnimationPath::animation;
   settings.cache.reset();
-  const Scene scene = scene_of_run(settings);
+  ScenePoses poses(settings);
+  const Scene scene = scene_of_run(settings, poses);
   const std::vector<PlannedView> views = plan_views(settings, scene);
   const auto moved = [&](const std::vector<std::size_t>& frames) {
     Stage stage(scene, settings, no_progress);
@@ -114,8 +115,7 @@ TEST(Stage, AFrameOfAnAnimationIsThatOfTheScenePosedAtItsTime) {
     return stage.methods().front().frames().render(view).texels;
   };
   const auto posed = [&](double seconds) {
-    const Stage stage(scene_at_time(settings, seconds, PlacedBounds{scene.bounds, scene.origin}), settings,
-                      no_progress);
+    const Stage stage(poses.at(seconds, PlacedBounds{scene.bounds, scene.origin}), settings, no_progress);
     return stage.methods().front().frames().render(stage.view(1.0)).texels;
   };
   const std::vector<float> first = posed(0.0);

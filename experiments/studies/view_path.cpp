@@ -13,7 +13,6 @@
 #include "experiments/studies/picture_files.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/effects/effects.hpp"
-#include "renderer/scene/assembly/load_scene.hpp"
 
 namespace footprint {
 namespace {
@@ -187,27 +186,27 @@ std::vector<Light> lights_on_path(const PathSettings& path, const Scene& scene, 
   return moved;
 }
 
-Scene scene_at_time(const RunSettings& settings, double seconds, const std::optional<PlacedBounds>& bounds) {
-  SceneOverrides overrides = settings.overrides;
+Scene ScenePoses::at(double seconds, const std::optional<PlacedBounds>& bounds) {
+  SceneOverrides overrides = overrides_;
   overrides.model.time = seconds;
   overrides.bounds = bounds;
-  return load_scene(settings.scene, settings.scene_library, overrides);
+  return assemble(read_scene(scene_, library_, overrides), files_);
 }
 
-Scene scene_of_run(const RunSettings& settings) {
+Scene scene_of_run(const RunSettings& settings, ScenePoses& poses) {
   if (settings.path.kind != AnimationPath::animation)
     return load_scene(settings.scene, settings.scene_library, settings.overrides);
-  const Scene first = scene_at_time(settings, first_time(settings), {});
+  const Scene first = poses.at(first_time(settings), {});
   WideBounds bounds;
   bounds.add(first.bounds, first.origin);
   bool casts = false;
   for (const PlannedView& view : plan_views(settings, first)) {
-    const Scene posed = scene_at_time(settings, view.at.seconds, {});
+    const Scene posed = poses.at(view.at.seconds, {});
     bounds.add(posed.bounds, posed.origin);
     casts = casts || casts_shadows(posed);
   }
   const glm::dvec3 origin = origin_for(bounds);
-  Scene scene = scene_at_time(settings, first_time(settings), PlacedBounds{bounds.from(origin), origin});
+  Scene scene = poses.at(first_time(settings), PlacedBounds{bounds.from(origin), origin});
   if (casts && !scene.shadows.cast) scene.shadows.cast = true;
   return scene;
 }

@@ -8,9 +8,11 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/settings/run_settings.hpp"
+#include "renderer/scene/assembly/load_scene.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace footprint {
@@ -53,16 +55,29 @@ struct PlannedView {
 /// scene has none but an environment.
 [[nodiscard]] std::vector<PlannedView> plan_views(const RunSettings& settings, const Scene& scene);
 
+/// The scene of a run at any time of its animation. Its files are read once.
+class ScenePoses {
+ public:
+  /// scene, library, overrides: as load_scene takes them.
+  ScenePoses(std::string scene, SceneLibrary library, SceneOverrides overrides)
+      : scene_(std::move(scene)), library_(std::move(library)), overrides_(std::move(overrides)) {}
+  explicit ScenePoses(const RunSettings& run) : ScenePoses(run.scene, run.scene_library, run.overrides) {}
+
+  /// bounds: of all frames, by which cameras and lights without a place of their own are placed.
+  /// Errors: as load_scene.
+  [[nodiscard]] Scene at(double seconds, const std::optional<PlacedBounds>& bounds);
+
+ private:
+  std::string scene_;
+  SceneLibrary library_;
+  SceneOverrides overrides_;
+  SceneFiles files_{};
+};
+
 /// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames and with
 /// shadows where any frame has them.
 /// Errors: as load_scene.
-[[nodiscard]] Scene scene_of_run(const RunSettings& settings);
-
-/// The scene at a time of its animation.
-/// bounds: of all frames, by which cameras and lights without a place of their own are placed.
-/// Errors: as load_scene.
-[[nodiscard]] Scene scene_at_time(const RunSettings& settings, double seconds,
-                                  const std::optional<PlacedBounds>& bounds);
+[[nodiscard]] Scene scene_of_run(const RunSettings& settings, ScenePoses& poses);
 
 /// The axis of a path, unit: the camera's up by default.
 [[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);

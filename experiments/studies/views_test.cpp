@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
@@ -90,7 +91,8 @@ std::string moving_quad() {
 TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames) {
   RunSettings run = path_of(AnimationPath::animation, 4);
   run.scene = moving_quad();
-  const Scene scene = scene_of_run(run);
+  ScenePoses poses(run);
+  const Scene scene = scene_of_run(run, poses);
   const std::vector<PlannedView> frames = plan_views(run, scene);
   ASSERT_EQ(frames.size(), 4U);
   EXPECT_EQ(frames[0].at.seconds, 0.0);
@@ -98,14 +100,28 @@ TEST(RunViews, AnAnimationHasEqualTimesUntilItsLastKeyWithinTheBoundsOfAllFrames
   EXPECT_EQ(frames[3].at.seconds, 3.0);
   EXPECT_EQ(scene.bounds.lower.x, -1.0F);
   EXPECT_EQ(scene.bounds.upper.x, 7.0F);
-  const Scene later = scene_at_time(run, 1.0, PlacedBounds{scene.bounds, scene.origin});
+  const Scene later = poses.at(1.0, PlacedBounds{scene.bounds, scene.origin});
   EXPECT_EQ(later.meshes.front().vertices.front().position.x, scene.meshes.front().vertices.front().position.x + 2.0F);
   EXPECT_EQ(later.camera, scene.camera) << "framed on all frames";
   run.overrides.model.time = 1.0;
   run.path.until = 1.5;
-  const std::vector<PlannedView> part = plan_views(run, scene_of_run(run));
+  const std::vector<PlannedView> part = plan_views(run, scene_of_run(run, poses));
   EXPECT_EQ(part[0].at.seconds, 1.0);
   EXPECT_EQ(part[3].at.seconds, 1.5);
+}
+
+// A file that is gone after the first frame, as of a model on a share.
+TEST(RunViews, AnAnimationReadsItsFilesOnce) {
+  RunSettings run = path_of(AnimationPath::animation, 4);
+  run.scene = moving_quad();
+  ScenePoses poses(run), others(run);
+  const Scene scene = scene_of_run(run, poses);
+  const Scene expected = others.at(2.0, PlacedBounds{scene.bounds, scene.origin});
+  std::filesystem::remove(run.scene);
+  const Scene later = poses.at(2.0, PlacedBounds{scene.bounds, scene.origin});
+  EXPECT_EQ(later.meshes.front().vertices.front().position, expected.meshes.front().vertices.front().position);
+  EXPECT_EQ(later.materials.size(), expected.materials.size());
+  EXPECT_EQ(later.warnings, expected.warnings);
 }
 
 // A quad that comes to 1 m above another one, under light from straight above.
@@ -122,9 +138,10 @@ TEST(RunViews, AnAnimationCastsShadowsIfAnyOfItsFramesDoes) {
                               {"samplers", {{{"input", input}, {"output", output}}}}}};
   RunSettings run = path_of(AnimationPath::animation, 2);
   run.scene = file.write().string();
-  EXPECT_EQ(scene_of_run(run).shadows.cast, true);
+  ScenePoses poses(run);
+  EXPECT_EQ(scene_of_run(run, poses).shadows.cast, true);
   run.path.until = 0.1;  // 9 m beside it
-  EXPECT_FALSE(scene_of_run(run).shadows.cast.has_value());
+  EXPECT_FALSE(scene_of_run(run, poses).shadows.cast.has_value());
 }
 
 TEST(RunViews, WhatAPathHasNoUseForIsRefused) {

@@ -5,6 +5,7 @@
 
 #include "renderer/core/error.hpp"
 #include "renderer/core/names.hpp"
+#include "renderer/scene/gltf/model_file.hpp"
 
 namespace footprint {
 
@@ -20,8 +21,15 @@ bool names_model(const std::filesystem::path& path) {
   return extension == ".gltf" || extension == ".glb" || extension == ".obj";
 }
 
-Model load_model(const std::filesystem::path& file, const ModelSelection& selection) {
-  if (lower_extension(file) != ".obj") return load_gltf(file, selection);
+ModelFiles::ModelFiles() = default;
+ModelFiles::~ModelFiles() = default;
+
+Model ModelFiles::load(const std::filesystem::path& file, const ModelSelection& selection) {
+  if (lower_extension(file) != ".obj") {
+    std::unique_ptr<GltfModelFile>& known = files_[file];
+    if (!known) known = std::make_unique<GltfModelFile>(GltfModelFile{.document = read_gltf(file)});
+    return load_gltf(*known, selection);
+  }
   if (!selection.empty()) {
     throw Error(ErrorKind::usage, file.string(), "an OBJ file has no scenes, cameras or variants to choose from",
                 "leave the choice out, or give a glTF file");

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,9 +33,25 @@ inline void add_once(std::vector<std::string>& lines, std::string line) {
 /// Whether a path has the extension of a model file: .gltf, .glb or .obj.
 [[nodiscard]] bool names_model(const std::filesystem::path& path);
 
-/// Loads an .obj file, or any other as glTF. Throws as load_obj and load_gltf; Error (usage): a selection in an .obj
-/// file.
-[[nodiscard]] Model load_model(const std::filesystem::path& file, const ModelSelection& selection = {});
+struct GltfModelFile;
+
+/// Loads models. A glTF file that is loaded again, as at another time of its animation, is not read again.
+class ModelFiles {
+ public:
+  ModelFiles();
+  ~ModelFiles();
+  ModelFiles(const ModelFiles&) = delete;
+  ModelFiles(ModelFiles&&) = delete;
+  ModelFiles& operator=(const ModelFiles&) = delete;
+  ModelFiles& operator=(ModelFiles&&) = delete;
+
+  /// Loads an .obj file, or any other as glTF. Throws as load_obj and load_gltf; Error (usage): a selection in an .obj
+  /// file.
+  [[nodiscard]] Model load(const std::filesystem::path& file, const ModelSelection& selection = {});
+
+ private:
+  std::map<std::filesystem::path, std::unique_ptr<GltfModelFile>> files_;
+};
 
 /// Loads the polygons of a Wavefront file (Advanced Visualizer manual, appendix B1) with the materials of its MTL
 /// files, at most 2 GiB and 2^26 triangles: one mesh per material, without any a default one. Vertices without a normal

@@ -21,12 +21,12 @@
 namespace footprint {
 namespace {
 
-Model load_file(const ModelSettings& settings) {
+Model load_file(const ModelSettings& settings, ModelFiles& files) {
   for (const auto& candidate : settings.candidates) {
     std::error_code error;
     if (settings.candidates.size() > 1 && !std::filesystem::exists(candidate, error)) continue;
     try {
-      return load_model(candidate, settings.selection);
+      return files.load(candidate, settings.selection);
     } catch (const Error& failed) {
       if (settings.package.empty() || std::filesystem::exists(candidate, error)) throw;
       throw Error(failed.kind(), failed.place(), failed.message(), "install the package " + settings.package);
@@ -106,10 +106,10 @@ Mesh merged(std::vector<Mesh> meshes) {
   return all;
 }
 
-Model load_content(const PartSettings& part) {
+Model load_content(const PartSettings& part, ModelFiles& files) {
   if (part.plane) return load_plane(*part.plane);
   Model model;
-  if (part.model) model = load_file(*part.model);
+  if (part.model) model = load_file(*part.model, files);
   if (part.surface) {
     if (!part.model) model.meshes.push_back(part.surface->surface->mesh(part.surface->settings));
     if (!model.meshes.empty()) model.meshes = {merged(std::move(model.meshes))};
@@ -385,8 +385,8 @@ void settle_anisotropy(Material& material, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-Model load_part(const PartSettings& settings) {
-  Model model = load_content(settings);
+Model load_part(const PartSettings& settings, ModelFiles& files) {
+  Model model = load_content(settings, files);
   std::optional<TextureMap> layer;
   if (settings.layer) layer = load_layer(*settings.layer, model.warnings);
   for (Material& material : model.materials) apply(settings.brdf, settings.maps, material);

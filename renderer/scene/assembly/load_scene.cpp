@@ -54,12 +54,21 @@ void tell_apart(std::vector<Material>& materials) {
   for (std::size_t i = 0; i < materials.size(); ++i) materials[i].name = std::move(names[i]);
 }
 
+/// A part, before it is placed.
+Model loaded_part(const PartSettings& part, std::size_t number, SceneFiles& files) {
+  if (part.model) return load_part(part, files.models);
+  const auto known = files.still_parts.find(number);
+  if (known != files.still_parts.end()) return known->second;
+  return files.still_parts.emplace(number, load_part(part, files.models)).first->second;
+}
+
 /// All parts, measured from one origin.
-Model load_parts(const std::vector<PartSettings>& settings, const std::optional<PlacedBounds>& given) {
+Model load_parts(const std::vector<PartSettings>& settings, const std::optional<PlacedBounds>& given,
+                 SceneFiles& files) {
   std::vector<Model> parts;
   WideBounds bounds;
   for (const PartSettings& part : settings) {
-    parts.push_back(load_part(part));
+    parts.push_back(loaded_part(part, parts.size(), files));
     bounds.add(placed_bounds(part.placement, parts.back()));
   }
   Model all;
@@ -120,8 +129,8 @@ void set_lights(const SceneSettings& settings, const std::vector<Light>& own, Sc
   }
 }
 
-Scene assemble_scene(const SceneSettings& settings, const std::optional<PlacedBounds>& bounds) {
-  Model model = load_parts(settings.parts, bounds);
+Scene assemble_scene(const SceneSettings& settings, const std::optional<PlacedBounds>& bounds, SceneFiles& files) {
+  Model model = load_parts(settings.parts, bounds, files);
   tell_apart(model.materials);
   Scene scene = settings.scene;
   if (model.meshes.empty()) {
@@ -238,13 +247,18 @@ SceneSource read_scene(const std::string& scene, const SceneLibrary& library, co
   return source;
 }
 
-Scene assemble(const SceneSource& source) {
+Scene assemble(const SceneSource& source, SceneFiles& files) {
   try {
-    return assemble_scene(source.settings, source.bounds);
+    return assemble_scene(source.settings, source.bounds, files);
   } catch (const Error& error) {
     if (source.file.empty()) throw;
     throw error.within(source.file.string());
   }
+}
+
+Scene assemble(const SceneSource& source) {
+  SceneFiles files;
+  return assemble(source, files);
 }
 
 Scene load_scene(const std::string& scene, const SceneLibrary& library, const SceneOverrides& overrides) {

@@ -1,7 +1,9 @@
 // From a scene folder, a scene.toml or a model file to a Scene.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@ namespace footprint {
 
 /// Loads a part of a scene, before it is placed. It may have no triangles. Throws Error (usage): no candidate file
 /// exists, errors of its files, lobes of another distribution than the surface's own.
-[[nodiscard]] Model load_part(const PartSettings& settings);
+[[nodiscard]] Model load_part(const PartSettings& settings, ModelFiles& files);
 
 /// The bounds of a model once it is placed. Empty without a vertex.
 [[nodiscard]] WideBounds placed_bounds(const Placement& placement, const Model& model);
@@ -53,7 +55,15 @@ struct SceneOverrides {
 [[nodiscard]] SceneSource read_scene(const std::string& scene, const SceneLibrary& library,
                                      const SceneOverrides& overrides = {});
 
+/// What a scene was assembled from, to assemble it again at another time of its animation.
+struct SceneFiles {
+  ModelFiles models;
+  std::map<std::size_t, Model> still_parts = {};  ///< without a model file, by their number; not placed
+};
+
 /// Assembles the scene. Throws errors of its files, which name the settings' file.
+/// files: of a source that differs in times alone, or new ones; what they have is not read again.
+[[nodiscard]] Scene assemble(const SceneSource& source, SceneFiles& files);
 [[nodiscard]] Scene assemble(const SceneSource& source);
 
 /// Loads a scene.

@@ -24,9 +24,11 @@ using UvSets = std::array<int, 2>;
 /// Converts the materials that meshes use. Shared textures are decoded once.
 class GltfMaterials {
  public:
-  /// Both arguments must outlive this. Adds a warning per unsupported feature.
-  GltfMaterials(const GltfDocument& document, std::vector<std::string>& warnings)
-      : document_(document), warnings_(warnings) {}
+  /// The arguments must outlive this. Adds a warning per unsupported feature.
+  /// maps: by image, use and factors; takes those that are there, and adds what it decodes.
+  GltfMaterials(const GltfDocument& document, std::map<std::string, MapTexels>& maps,
+                std::vector<std::string>& warnings)
+      : document_(document), maps_(maps), warnings_(warnings) {}
 
   /// The index in `materials()` of glTF material `gltf_index`; -1 is glTF's default material. Throws Error (usage) that
   /// names material and texture: an image that is missing, empty, invalid or too large, or a factor that is not finite.
@@ -38,11 +40,11 @@ class GltfMaterials {
 
  private:
   const GltfDocument& document_;
+  std::map<std::string, MapTexels>& maps_;
   std::vector<std::string>& warnings_;
   std::vector<Material> materials_;
   std::vector<UvSets> sets_;
   std::map<int, int> indices_;
-  std::map<std::string, MapTexels> maps_;  ///< by image, use and factors
 };
 
 }  // namespace footprint

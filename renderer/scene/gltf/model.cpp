@@ -16,6 +16,7 @@
 #include "renderer/scene/geometry.hpp"
 #include "renderer/scene/gltf/document.hpp"
 #include "renderer/scene/gltf/material.hpp"
+#include "renderer/scene/gltf/model_file.hpp"
 #include "renderer/scene/gltf/pose.hpp"
 
 namespace footprint {
@@ -257,8 +258,12 @@ WideBounds bounds_of_scene(const GltfDocument& document, const Pose& pose, const
 /// Collects the content of nodes.
 class Gatherer {
  public:
-  Gatherer(const GltfDocument& document, const Pose& pose, const std::optional<std::size_t>& variant, Model& result)
-      : document_(document), pose_(pose), variant_(variant), result_(result), materials_(document, result.warnings) {}
+  Gatherer(GltfModelFile& file, const Pose& pose, const std::optional<std::size_t>& variant, Model& result)
+      : document_(file.document),
+        pose_(pose),
+        variant_(variant),
+        result_(result),
+        materials_(file.document, file.maps, result.warnings) {}
 
   void gather(const Nodes& roots) {
     walk(pose_, roots, [&](const Json& node, const glm::dmat4& world, bool visible) {
@@ -363,8 +368,8 @@ void take_camera(const Json& document, const std::vector<NodeCamera>& cameras, c
 
 }  // namespace
 
-Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection) {
-  const GltfDocument document = read_gltf(file);
+Model load_gltf(GltfModelFile& file, const ModelSelection& selection) {
+  const GltfDocument& document = file.document;
   const Json& json = document.json;
   Model result;
   warn_left_out(json, result);
@@ -381,7 +386,7 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
     result.motion = pose.motion;
     const Nodes roots = root_nodes(json, scene.taken);
     result.origin = origin_for(bounds_of_scene(document, pose, roots));
-    Gatherer gathered(document, pose, variant.taken, result);
+    Gatherer gathered(file, pose, variant.taken, result);
     gathered.gather(roots);
     result.choices.push_back(scene);
     take_camera(json, gathered.cameras(), selection.camera, result);
@@ -389,9 +394,16 @@ Model load_gltf(const std::filesystem::path& file, const ModelSelection& selecti
     result.choices.push_back(animation);
     std::erase_if(result.choices, [](const ModelChoice& choice) { return choice.names.empty(); });
   } catch (const Error& error) {
-    throw error.within(file.string());
+    throw error.within(document.file.string());
   }
+  for (const std::string& warning : file.warnings) add_once(result.warnings, warning);
+  file.warnings = result.warnings;
   return result;
+}
+
+Model load_gltf(const std::filesystem::path& file, const ModelSelection& selection) {
+  GltfModelFile read{.document = read_gltf(file)};
+  return load_gltf(read, selection);
 }
 
 }  // namespace footprint

@@ -13,6 +13,7 @@ const int peaks = int(option_k);  //? if normal_variation
 const int peaks = 1;              //? else
 
 //? include summed_peaks.glsl
+const bool fast_density = false;
 //? include stretched_part.glsl
 
 //? if normal_variation

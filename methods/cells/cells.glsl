@@ -1,5 +1,7 @@
 // Weight, mean and covariance of each part of the normals under a footprint, from moments that the texture filter may
 // average, and one stretched base lobe per part (methods/cells/README.md).
+const bool fast_density = true;   //? if density_fast
+const bool fast_density = false;  //? else
 //? include slope_part.glsl if coordinates_slopes
 //? include stretched_part.glsl if not coordinates_slopes
 
@@ -9,6 +11,20 @@ const int part_channels = 5;  //? if covariance_axes
 const int part_channels = 6;  //? else
 
 //? include parts_module.glsl
+
+//? if specular_joint and specular_variation
+vec3 tint[parts];  // specular colour of each part over that of the footprint, per unit of the share
+
+vec3 partsSpecular(Effective e, Surface s, vec3 h, vec3 wi, vec3 wo) {
+  Direction at = directionOf(h);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < parts; ++i)
+    sum += partReflectance(e.part[i], at, h, wi, wo) * fresnelTerm(s.f0 * tint[i], wi, wo);
+  return sum;
+}
+//? else
+//? include even_parts.glsl
+//? end
 
 //? if texture_arrays
 //? if covariance_axes
@@ -59,20 +75,20 @@ BaseLobe lobeOfPart(BaseLobe shared_lobe, float weight, float weighted_variance)
 //? if specular_joint and specular_variation
 // A part's specular colour over that of the footprint, both per unit of their weight. Where the sum of a channel is 0,
 // so is that of the footprint, or no normal is valid.
-void setTints(inout Effective e, Footprints f, Moments moments[parts]) {
+void setTints(Footprints f, Moments moments[parts]) {
   const int per_channel = (parts + 3) / 4;
   vec4 layers[3 * per_channel];
   for (int l = 0; l < 3 * per_channel; ++l) layers[l] = fetch(cells_colours, l, f.normal);
   vec3 colours = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < parts; ++i) {
-    for (int c = 0; c < 3; ++c) e.tint[i][c] = layers[c * per_channel + i / 4][i % 4];
-    colours += e.tint[i];
+    for (int c = 0; c < 3; ++c) tint[i][c] = layers[c * per_channel + i / 4][i % 4];
+    colours += tint[i];
     weights += moments[i].first.x;
   }
   for (int i = 0; i < parts; ++i) {
     float share = max(moments[i].first.x / weights, least_share);
-    e.tint[i] = mix(vec3(1.0), e.tint[i] / (share * max(colours, 1e-20)), greaterThan(colours, vec3(0.0)));
+    tint[i] = mix(vec3(1.0), tint[i] / (share * max(colours, 1e-20)), greaterThan(colours, vec3(0.0)));
   }
 }
 //? end
@@ -106,7 +122,7 @@ void fillParts(inout Effective e, Footprints f) {
     setPart(e, i, covered, moments[i], base);
 //? end
   }
-  setTints(e, f, moments);  //? if specular_joint and specular_variation
+  setTints(f, moments);  //? if specular_joint and specular_variation
 }
 //? end
 
@@ -125,7 +141,7 @@ Effective effective(Footprints f) {
   e.mean_normal = vec3(0.0, 0.0, 1.0);
   BaseLobe base = baseLobe(f);
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
-  e.tint[0] = vec3(1.0);  //? if specular_joint and specular_variation
+  tint[0] = vec3(1.0);  //? if specular_joint and specular_variation
 //? end
   return e;
 }

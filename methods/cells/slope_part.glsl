@@ -1,5 +1,5 @@
 // A part with moments of slopes: LEAN's lobe with a share.
-//? include common_slopes.glsl
+//? include stretched_slopes.glsl
 
 struct Part {
   SlopeLobe slopes;

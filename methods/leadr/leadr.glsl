@@ -1,6 +1,19 @@
 // Dupuy et al. 2013 (LEADR): one off-centre lobe over the footprint's slopes, and masking, shadowing and diffuse
 // reflection of a surface with those slopes.
-//? include footprint_slopes.glsl
+//? if roughness_stretched
+//? include stretched_slopes.glsl
+//? else
+const bool base_in_moments = true;   //? if normal_variation and roughness_moments
+const bool base_in_moments = false;  //? else
+//? include gaussian_slopes.glsl
+//? end
+//? include full_moments.glsl
+//? include lobe_variance.glsl if not (normal_variation and roughness_moments)
+
+float addedVariance(Footprints f) {
+  return 0.0;              //? if normal_variation and roughness_moments
+  return baseVariance(f);  //? else
+}
 
 // Smith's masking for slopes with a mean. Displaced texels are always masked by their slopes.
 //? include beckmann_lambda.glsl if masking_shadowing and geometry_smith or weighting_displacement

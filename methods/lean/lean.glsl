@@ -7,7 +7,25 @@ leaves_out = ["multi_lobe"]
 */
 // Olano and Baker 2010: recovers mean and covariance of the footprint's slopes from filtered moments, and evaluates one
 // lobe with them. The scalar variant, CLEAN, stores only the trace of the covariance.
-//? include footprint_slopes.glsl
+//? if roughness_stretched
+//? include stretched_slopes.glsl
+//? else
+const bool base_in_moments = true;   //? if normal_variation and roughness_moments
+const bool base_in_moments = false;  //? else
+//? include gaussian_slopes.glsl
+//? end
+//? include scalar_moments.glsl if variant_clean
+//? include full_moments.glsl if not variant_clean
+//? include lobe_variance.glsl if averages_variance and not (normal_variation and roughness_moments)
+//? include mean_roughness.glsl if averages_roughness
+
+float addedVariance(Footprints f) {
+  return 0.0;                                            //? if normal_variation and roughness_moments
+  return baseVariance(f);                                //? elif averages_variance
+  return lobeVariance(baseLobe(f));                      //? elif averages_roughness
+  return lobeVariance(fetch(mean_lobe, f.roughness).r);  //? elif roughness_variation
+  return lobeVariance(lobe_cutoff.x);                    //? else
+}
 
 struct Effective {
   SlopeLobe lobe;

@@ -3,6 +3,7 @@
 const int parts = int(option_k);  //? if normal_variation
 const int parts = 1;              //? else
 const int part_channels = 6;
+const bool fast_density = true;
 //? include stretched_part.glsl
 //? include part_moments.glsl
 //? include mean_normal.glsl if normal_variation

@@ -5,7 +5,7 @@
 const float least_variance = 5e-7;  // of the smallest alpha of a material, 0.001; where all is black there is none
 
 float facetVariance(Footprints f) {
-  vec2 weighed = fetch(lobe_variance, f.roughness).rg;
+  vec2 weighed = storedLobe(f).rg;
   return max(varianceOfStored(weighed.x / max(weighed.y, 1e-6)), least_variance);
 }
 //? else

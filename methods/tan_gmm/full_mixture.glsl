@@ -3,8 +3,10 @@
 const int parts = int(option_n);  //? if normal_variation
 const int parts = 1;              //? else
 const int part_channels = 6;
+const bool fast_density = true;
 //? include stretched_part.glsl
 //? include parts_module.glsl
+//? include even_parts.glsl
 
 BaseLobe lobeOfFacets(Footprints f) {
 //? if roughness_variation

@@ -5,10 +5,15 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "renderer/core/error.hpp"
+#include "renderer/pipeline/shader_flags.hpp"
 
 namespace footprint {
+
+extern const EmbeddedTexts shared_glsl;
+
 namespace {
 
 // A module's text without the numbers of its lines.
@@ -156,6 +161,16 @@ TEST(ShaderText, SharedTextsAreThereForAllAndOnce) {
   const std::size_t found = text.text().find(function);
   ASSERT_NE(found, std::string::npos);
   EXPECT_EQ(text.text().find(function, found + 1), std::string::npos);
+}
+
+// A shared text takes functions and constants that a module defines, so it may know no option and no flag of a method.
+TEST(ShaderText, SharedTextsTestNoFlagOfAMethod) {
+  for (const EmbeddedText& file : shared_glsl) {
+    ShaderFlags flags = shader_flags({});
+    if (file.file == "history.glsl") flags.insert({{"clamp_box", false}, {"clamp_variance", false}});  // of its pass
+    ShaderText text(std::move(flags), {"module.glsl", "\n"});
+    EXPECT_NO_THROW(text.include(file.file)) << file.file;
+  }
 }
 
 // A module's lines have the numbers of its own file, its folder's other files numbers of their own, and all else is

@@ -1,4 +1,4 @@
-// The base BRDF. The reference averages it, and `direct` evaluates it once per pixel.
+// The base BRDF of a texel. The reference averages it over its samples.
 //? include normal_layers.glsl if normal_layers
 //? include patch_facets.glsl if microgeometry_visibility
 //? include facets_module.glsl if not microgeometry_visibility

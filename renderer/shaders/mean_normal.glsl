@@ -1,17 +1,17 @@
-// The mean of the unit normals under a footprint, from the texture of `bake_mean_normal`: its direction (that of the
-// surface if it is zero) and its length, at most 1.
+// The mean of the unit normals under a footprint, from the texture of `bake_mean_normal`, whose storage decides how it is
+// read: its direction (that of the surface if it is zero) and its length, at most 1.
 //? include normal_layers.glsl if normal_layers
 
 //? include length_shortfall.glsl
 
 // For 16 bits, half a unit in the last place. The loss of 8 bits is too large to correct.
-const float length_rounding = 1.0 / 2048.0;        //? if storage_fp16
-const float length_rounding = 0.0;                 //? elif storage_unorm8 or storage_bc1 or storage_bc5
+const float length_rounding = 1.0 / 2048.0;        //? if half_normals
+const float length_rounding = 0.0;                 //? elif coarse_normals
 const float length_rounding = rounding_of_floats;  //? else
 
 vec4 storedMeanNormal(vec3 mean) {
-  mean = 2.0 * mean - 1.0;  //? if storage_unorm8 or storage_bc1 or storage_bc5
-//? if storage_bc5
+  mean = 2.0 * mean - 1.0;  //? if coarse_normals
+//? if two_channel_normals
   mean.z = sqrt(max(1.0 - dot(mean.xy, mean.xy), 0.0));  // of unit normals, of which only x and y are stored
 //? end
   float size = length(mean);

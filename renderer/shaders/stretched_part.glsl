@@ -1,6 +1,7 @@
 // A part with moments of stereographic coordinates, p = h_xy / (1 + h_z). They are conformal: a lobe of slope variance
 // v about the normal at p has the covariance v ((1 + |p|^2) / 2)^2 I there for any tilt. The square of a chord is 4 |p
-// - p'|^2 / ((1 + |p|^2) (1 + |p'|^2)), and a solid angle 4 dp / (1 + |p|^2)^2.
+// - p'|^2 / ((1 + |p|^2) (1 + |p'|^2)), and a solid angle 4 dp / (1 + |p|^2)^2. Includers define `const bool
+// fast_density`, which replaces the power of a Blinn-Phong lobe by a faster one.
 
 struct Part {
   vec2 mean;
@@ -91,17 +92,18 @@ vec3 meanNormalOf(vec2 mean, vec3 spread) {
 
 //? if distribution_blinn_phong
 // The base lobe at u = 1 - cosine, below 2.
-//? if density_fast
 // (1 - u)^s. log2(1 - u) loses the last bits of u and is accurate to 2^-24 s. For larger s the series is used, accurate
 // to 17 u^3 / 4 where the lobe is not negligible, u < 17 / s.
-float lobeAt(float s, float u) {
+float fastLobeAt(float s, float u) {
   float series = -1.4426950 * u * (1.0 + u * (0.5 + u * (1.0 / 3.0)));
   float exponent = s > 1000.0 ? series : log2(max(1.0 - u, 1e-30));
   return (s + 1.0) / (2.0 * pi) * exp2(s * exponent);
 }
-//? else
-float lobeAt(float s, float u) { return u >= 1.0 ? 0.0 : (s + 1.0) / (2.0 * pi) * exp(s * log1m(u)); }
-//? end
+
+float lobeAt(float s, float u) {
+  if (fast_density) return fastLobeAt(s, u);
+  return u >= 1.0 ? 0.0 : (s + 1.0) / (2.0 * pi) * exp(s * log1m(u));
+}
 //? elif distribution_vmf
 //? include vmf.glsl
 float lobeAt(float kappa, float u) {

@@ -53,10 +53,7 @@ std::string functions_of(NormalDistribution distribution, GeometryTerm geometry 
   variant.brdf = {distribution, geometry, FresnelTerm::schlick, true};
   for (const Effect effect : {Effect::diffuse, Effect::fresnel, Effect::masking_shadowing})
     variant.effects.set(static_cast<std::size_t>(effect));
-  const Options options(
-      {word_option("roughness", {"shading", "stretched", "moments"}, ""), word_option("variant", {"lean", "clean"}, ""),
-       word_option("storage", {"fp32", "fp16", "unorm8"}, ""), word_option("moment", {"total", "corrected"}, "")},
-      {}, "test");
+  const Options options({word_option("moment", {"total", "corrected"}, "")}, {}, "test");
   return "vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, options), module);
 }
 
@@ -226,7 +223,7 @@ Input rounded_moments() {
 }
 
 std::vector<ShaderGuard> slope_guards() {
-  const std::string slopes = functions_with("//? include common_slopes.glsl\n");
+  const std::string slopes = functions_with("const bool base_in_moments = false;\n//? include gaussian_slopes.glsl\n");
   constexpr std::string_view density = "return vec4(slopeDensity(slopeLobe(vec2(0.0), mat2(a.x), a.x), b.xyz));";
   return {{"M - B B^T of equal slopes", "nearest matrix without a negative eigenvalue", slopes,
            "if (middle >= radius) return mat2(c.x, c.y, c.y, c.z);", "return mat2(c.x, c.y, c.y, c.z);",

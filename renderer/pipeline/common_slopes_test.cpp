@@ -29,7 +29,7 @@ TEST(CommonSlopes, GlslRecoversTheSameCovariance) {
   ShaderVariant variant;
   const auto out =
       evaluate_glsl("vec4 lobe_cutoff;\n" +
-                        shared_functions(shader_flags(variant), {"test.glsl", "//? include common_slopes.glsl\n"}),
+                        shared_functions(shader_flags(variant), {"test.glsl", "#include \"common_slopes.glsl\"\n"}),
                     "mat2 s = slopeCovariance(a.xy, b.xyz); return vec4(s[0], s[1]);", inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto& [b, m, unused] = inputs[i];

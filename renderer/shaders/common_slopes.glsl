@@ -20,7 +20,7 @@ mat2 slopeCovariance(vec2 mean, vec3 second) {
 // The determinant of a covariance, at least 0 despite rounding.
 float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] * c[1][0], 0.0); }
 
-//? if diffuse
+#if DIFFUSE
 // The symmetric square root of a covariance.
 mat2 covarianceRoot(mat2 c) {
   float s = sqrt(determinantOfCovariance(c));
@@ -38,7 +38,7 @@ vec3 meanOfSlopes(vec2 mean, mat2 root) {
   }
   return sum;
 }
-//? end
+#endif
 
 // [d -b; -c a]: the inverse times the determinant.
 mat2 adjugate(mat2 m) { return mat2(m[1][1], -m[0][1], -m[1][0], m[0][0]); }
@@ -57,12 +57,12 @@ struct SlopeLobe {
   float secant;   // 1 / axis.z
   mat2 shape;     // stretched: offsets from B to offsets of the base lobe; Gaussian: inverse covariance
   float scale;    // stretched: determinant of `shape`; Gaussian: the peak of the density of slopes
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
   mat2 widths;    // twice the covariance of slopes about `axis`, base lobe included: squared alphas
-//? end
+#endif
 };
 
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
 // Alpha along and across the direction of the base lobe whose round mean has a slope variance, as far as the moments do
 // not include it.
 vec2 baseAlphas(float variance);
@@ -73,9 +73,9 @@ mat2 baseCovariance(float variance) {
   return 0.5 * inFacetAxes(alphas.x * alphas.x, alphas.y * alphas.y);
 }
 
-//? end
+#endif
 
-//? if lobes_listed
+#if LOBES_LISTED
 // Splits an elongated lobe into a row of round ones along its long axis, for environment light: Gaussian weights and
 // the same total variance. Five or seven up to 1.9 deviations; one if less than 1.3 times as long as wide.
 struct LobeRow {
@@ -86,16 +86,16 @@ struct LobeRow {
 
 LobeRow lobeRow(SlopeLobe e) {
   mat2 inverse_jacobian = inverseSlopeJacobian(e.mean, e.secant);
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
   mat2 local = 0.5 * e.widths;
   float alpha = baseAlphas(e.base).y;
   float narrowest = 0.5 * alpha * alpha;
   float base = 0.0;  // `local` includes it
-//? else
+#else
   mat2 local = inverse_jacobian * e.spread * inverse_jacobian;
   float narrowest = e.base;
   float base = e.base;
-//? end
+#endif
   vec2 deviator = vec2(0.5 * (local[0][0] - local[1][1]), local[0][1]);
   float radius = length(deviator);
   float middle = base + 0.5 * (local[0][0] + local[1][1]);
@@ -119,4 +119,4 @@ NormalLobe lobeOfRow(SlopeLobe e, LobeRow row, int i) {
   float lobe = lobeFromVariance(row.across);
   return lobeInRow(axis, row.across, lobe, share);
 }
-//? end
+#endif

@@ -5,6 +5,8 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo))
     r.specular = fresnelTerm(s.f0, wi, wo) * reflectedDensity(e, halfVector(wi, wo), wi, wo);
-  r.diffuse = diffuse(meanNormal(e), s, wi, wo);  //? if diffuse
+#if DIFFUSE
+  r.diffuse = diffuse(meanNormal(e), s, wi, wo);
+#endif
   return r;
 }

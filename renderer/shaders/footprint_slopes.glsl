@@ -2,11 +2,11 @@
 // a bump layer, and the lobe over them. A module also includes one text that defines the lobe (stretched_slopes.glsl,
 // gaussian_slopes.glsl) and one that reads the moments (full_moments.glsl, scalar_moments.glsl), and it defines
 // `addedVariance`.
-//? include common_slopes.glsl
+#include "common_slopes.glsl"
 
 // As `fetch`, for two textures of the same size, in one loop over the probes.
 void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
-//? if sampling_frame and not filter_hardware
+#if SAMPLING_FRAME && !FILTER_HARDWARE
   Probes p = probesOf(vec2(textureSize(first, 0)), f);
   countLookups(2 * p.count);
   of_first = vec4(0.0);
@@ -18,22 +18,22 @@ void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first
     of_first += weight * textureLod(first, uv, p.level);
     of_second += weight * textureLod(second, uv, p.level);
   } while (++i < p.count);
-//? else
+#else
   of_first = fetch(first, f);
   of_second = fetch(second, f);
-//? end
+#endif
 }
 
-//? if normal_variation
+#if NORMAL_VARIATION
 // The stored moments of the normal map; of the scalar ones without a mean normal, `rest` is 0.
 void fetchSlopes(Footprints f, out vec4 moments, out vec4 rest);
 
-//? end
-//? if normal_layers
+#endif
+#if NORMAL_LAYERS
 // The stored moments of a bump layer.
 void fetchLayer(Footprints f, out vec4 moments, out vec4 rest);
 
-//? end
+#endif
 // The covariance of stored moments.
 mat2 spreadOf(vec4 moments, vec4 rest);
 
@@ -56,18 +56,18 @@ FilteredSlopes filteredSlopes(Footprints f) {
   s.mean_normal = vec3(0.0, 0.0, 1.0);
   vec4 moments = vec4(0.0);
   vec4 rest = vec4(0.0);
-//? if normal_variation
+#if NORMAL_VARIATION
   fetchSlopes(f, moments, rest);
   s.mean = moments.xy;
   s.spread = spreadOf(moments, rest);
   s.mean_normal = meanNormalOf(rest);
-//? end
-//? if normal_layers
+#endif
+#if NORMAL_LAYERS
   // Slopes of independent layers add, and so do means and covariances; adding these has the least cancellation.
   fetchLayer(f, moments, rest);
   s.mean += moments.xy;
   s.spread += spreadOf(moments, rest);
-//? end
+#endif
   return s;
 }
 

@@ -1,7 +1,7 @@
 // A module with several parts of the normals per pixel, each with share, mean, covariance and a stretched base lobe.
 // Includers define `const int parts`, `Part` and its functions (stretched_part.glsl), `effective`, and `partsSpecular`,
 // for which even_parts.glsl is one choice.
-//? include part_moments.glsl
+#include "part_moments.glsl"
 
 struct Effective {
   Part part[parts];
@@ -27,11 +27,13 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo)) r.specular = partsSpecular(e, s, halfVector(wi, wo), wi, wo);
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
+#if DIFFUSE
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
+#endif
   return r;
 }
 
-//? if lobes_listed
+#if LOBES_LISTED
 int lobeCount(Effective e) { return parts * lobes_per_part; }
 
 NormalLobe normalLobe(Effective e, int i) { return partLobe(e.part[i / lobes_per_part], i % lobes_per_part); }
@@ -41,4 +43,4 @@ float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) { return e.mean_normal; }
-//? end
+#endif

@@ -1,5 +1,5 @@
 // Reads the moments of SlopeVariant::scalar: mean slope, E[b.b] and, for a diffuse term without layers, the mean normal.
-//? include footprint_slopes.glsl
+#include "footprint_slopes.glsl"
 
 // A round covariance, the variance per axis from E[b.b] instead of M.
 mat2 spreadOf(vec4 moments, vec4 rest) {
@@ -8,20 +8,20 @@ mat2 spreadOf(vec4 moments, vec4 rest) {
 
 vec3 meanNormalOf(vec4 rest) { return rest.xyz; }
 
-//? if normal_variation
+#if NORMAL_VARIATION
 void fetchSlopes(Footprints f, out vec4 moments, out vec4 rest) {
-//? if diffuse and not normal_layers
+#if DIFFUSE && !NORMAL_LAYERS
   fetchPair(slope_moments, slope_rest, f.normal, moments, rest);
-//? else
+#else
   moments = fetch(slope_moments, f.normal);
   rest = vec4(0.0);
-//? end
+#endif
 }
-//? end
+#endif
 
-//? if normal_layers
+#if NORMAL_LAYERS
 void fetchLayer(Footprints f, out vec4 moments, out vec4 rest) {
   moments = fetch(layer_moments, f.layer);
   rest = vec4(0.0);
 }
-//? end
+#endif

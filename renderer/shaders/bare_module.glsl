@@ -1,5 +1,7 @@
 // The module of a method for programs of others, with the functions that they call.
 #include "method_module.glsl"
+#include "method_contract.glsl"
+
 // The footprint of a map at `uv`. Uses screen derivatives, so all pixels of a quad must call it.
 Footprint footprintAt(vec2 uv) { return Footprint(uv, dFdx(uv), dFdy(uv)); }
 

@@ -1,5 +1,7 @@
 // `shade` of a module whose facets reflect about the half vector. Includers define `Effective`, `meanNormal`, and
 // `reflectedDensity`: f * cos without the Fresnel term.
+float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo);
+
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);

@@ -7,6 +7,8 @@ uniform vec2 footprint_dx[3];
 uniform vec2 footprint_dy[3];
 
 #include "method_module.glsl"
+#include "method_contract.glsl"
+
 #if FILTER_PARTS
 #include "footprint_parts.glsl"
 #endif

@@ -25,6 +25,8 @@ bool nothing_to_shade = false;  // set by a module whose sample fell on an inval
 #endif
 
 #include "method_module.glsl"
+#include "method_contract.glsl"
+
 Footprint footprintOf(vec4 linear, vec4 offset_set) {
   vec2 mapped = mat2(linear.xy, linear.zw) * (offset_set.z < 0.5 ? uv0 : uv1) + offset_set.xy;
   return Footprint(mapped, dFdx(mapped), dFdy(mapped));

@@ -104,6 +104,11 @@ class MethodFileTest(WholeRunTest):
         error = self.refused("render", "bumps", *SMALL, "--method", former, "--quiet", "-o", "broken.exr")
         self.assertIn("./former.glsl, line 7: ", error)
         self.assertIn('write `#if NORMAL_VARIATION`, `#include "mean_normal.glsl"` and `#endif`', error)
+        part = self.file(HEAD + BODY.replace('#include "facets_module.glsl"\n', "struct Effective { Facets facets; };\n"),
+                         "part.glsl")
+        for command in ("render", "bumps", *SMALL, "--method", part), ("ndf", "bumps", "--methods", part):
+            error = self.refused(*command, "--quiet", "-o", "broken.exr")
+            self.assertIn("./part.glsl: does not define `Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo)`", error)
 
     def test_other_commands_take_it(self):
         copy = self.copy_of("toksvig")

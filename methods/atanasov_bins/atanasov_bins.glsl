@@ -1,8 +1,10 @@
 // Atanasov et al. 2020: counts the normals under a pixel by bins of the half vector. The density of normals at h is the
 // area of the footprint's texels with normals in h's bin, divided by the area of the footprint and the solid angle of
 // the bin. If texels reflect by a lobe, it is the mean of the lobes about the normals of the bins around h.
-//? include direction_grid.glsl
-//? include lobe_variance.glsl if roughness_lobe or roughness_bin and surface_microfacets
+#include "direction_grid.glsl"
+#if ROUGHNESS_LOBE || ROUGHNESS_BIN && SURFACE_MICROFACETS
+#include "lobe_variance.glsl"
+#endif
 
 // The integers of the precompute, four bytes each: packed normals and their bins.
 
@@ -56,7 +58,7 @@ Query queryFor(bool reflects, vec3 h, vec3 wi, vec3 wo) { return Query(reflects,
 
 float binSolidAngle() { return 2.0 * pi / (bins_across * bins_across); }
 
-//? if roughness_flakes
+#if ROUGHNESS_FLAKES
 // Beckmann's density about a flake's normal, over solid angle (Walter 2007, equation 25).
 float flakeDensity(float alpha, vec3 n, vec3 h) {
   countLobes(1);
@@ -74,35 +76,39 @@ float baseVariance(Footprints f) { return 0.5 * option_alpha * option_alpha; }
 float valueAbout(float variance, vec3 normal, float spread, Query q) {
   float alpha = sqrt(2.0 * (variance + spread));
   float density = flakeDensity(alpha, normal, q.h);
-  if (q.reflects) density *= geometryFactor(lobeFromAlpha(alpha), normal, q.h, q.wi, q.wo);  //? if surface_facets
+#if SURFACE_FACETS
+  if (q.reflects) density *= geometryFactor(lobeFromAlpha(alpha), normal, q.h, q.wi, q.wo);
+#endif
   return density;
 }
-//? elif roughness_bin and surface_facets
+#elif ROUGHNESS_BIN && SURFACE_FACETS
 float baseVariance(Footprints f) { return binSolidAngle() / 12.0; }  // variance of a square of area |H| along an axis
-//? elif roughness_lobe
+#elif ROUGHNESS_LOBE
 float valueAbout(float variance, vec3 normal, float spread, Query q) {
   Facets facets = spreadFacets(normal, variance, spread);
-  if (q.reflects) return facetReflectance(facets, q.h, q.wi, q.wo);  //? if surface_facets
+#if SURFACE_FACETS
+  if (q.reflects) return facetReflectance(facets, q.h, q.wi, q.wo);
+#endif
   return facetDensity(facets, q.h);
 }
-//? end
+#endif
 
 // Applies the factors of all normals. `value` is their mean density or, for facets with lobes, their mean reflectance.
 float finishedValue(float variance, float value, Query q) {
   if (!q.reflects || value == 0.0) return value;
-//? if surface_microfacets
+#if SURFACE_MICROFACETS
   // Walter 2007: D cos integrates to one over a surface about its own normal; here D over solid angle does.
   vec3 up = vec3(0.0, 0.0, 1.0);
   return value / max(q.h.z, 1e-3) * geometryFactor(lobeFromVariance(variance), up, q.h, q.wi, q.wo);
-//? elif roughness_bin
+#elif ROUGHNESS_BIN
   // Mirrors that face h, spread over their bin.
   return value * geometryFactor(lobeFromVariance(variance), q.h, q.h, q.wi, q.wo);
-//? else
+#else
   return value;
-//? end
+#endif
 }
 
-//? if lobes_listed or sampling_frame and normal_variation and not roughness_bin
+#if LOBES_LISTED || SAMPLING_FRAME && NORMAL_VARIATION && !ROUGHNESS_BIN
 // Section 2.1: draws normals from D. A point of the footprint, the bin of its texel, and a normal anywhere in that bin.
 
 // A drawn texel, and the share of the footprint that it represents: 0 without a texel or a normal.
@@ -117,13 +123,16 @@ vec4 evenPoint(int i) { return fract(0.5 + float(i + 1) * vec4(0.85667488, 0.733
 
 // The normal that a texel reflects about: its own or, if only its bin is known, one at `place` in the bin.
 vec3 normalOf(uint code, vec2 place) {
-  return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);  //? if roughness_bin
-  return unpackedNormal(code);                                                               //? else
+#if ROUGHNESS_BIN
+  return squareToHemisphere((vec2(cellOfPacked(code, bins_across)) + place) / bins_across);
+#else
+  return unpackedNormal(code);
+#endif
 }
-//? end
-//? if sampling_frame and normal_variation
-//? include atanasov_bins_footprint.glsl
-//? else
+#endif
+#if SAMPLING_FRAME && NORMAL_VARIATION
+#include "atanasov_bins_footprint.glsl"
+#else
 // One normal per sample: a texel of the finest level, or a surface without a normal map.
 struct Effective {
   vec3 normal;
@@ -134,65 +143,73 @@ struct Effective {
 Effective effective(Footprints f) {
   Effective e;
   e.variance = baseVariance(f);
-//? if normal_variation
+#if NORMAL_VARIATION
   uint code = wordOf(fetchFinest(bins_map, f.normal));
-  nothing_to_shade = code == no_normal;  //? if not sampling_frame
+#if !SAMPLING_FRAME
+  nothing_to_shade = code == no_normal;
+#endif
   e.normal = unpackedNormal(code);
   e.code = code;
-//? else
+#else
   e.normal = vec3(0.0, 0.0, 1.0);
   e.code = up_code;
-//? end
+#endif
   return e;
 }
 
 float meanValue(Effective e, Query q) {
-//? if roughness_bin
+#if ROUGHNESS_BIN
   countLobes(1);
   float value = q.bin == binOfPacked(e.code) ? 1.0 / binSolidAngle() : 0.0;
-//? else
+#else
   float value = valueAbout(e.variance, e.normal, 0.0, q);
-//? end
+#endif
   return finishedValue(e.variance, value, q);
 }
 
 vec3 meanNormal(Effective e) { return e.normal; }
 
-//? if lobes_listed
+#if LOBES_LISTED
 // A single texel: only the place in its bin is drawn.
 int drawCount(Effective e) {
-  return int(option_draws);  //? if roughness_bin
-  return 1;                  //? else
+#if ROUGHNESS_BIN
+  return int(option_draws);
+#else
+  return 1;
+#endif
 }
 
 DrawnTexel drawnTexel(Effective e, int i) { return DrawnTexel(e.code, e.variance, 1.0 / float(drawCount(e))); }
-//? end
-//? end
+#endif
+#endif
 
 float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) { return meanValue(e, queryFor(true, h, wi, wo)); }
 
-//? include density_module.glsl
+#include "density_module.glsl"
 
 float ndf(Effective e, vec3 h) { return meanValue(e, queryFor(false, h, h, h)); }
 
-//? if lobes_listed
+#if LOBES_LISTED
 // Environment light: the drawn normals, each with the reflection of its texel, are the lobes of the NDF.
 
-//? if roughness_lobe
+#if ROUGHNESS_LOBE
 int lobesOfTexel() { return facetLobeCount(); }
 
 NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
   return facetNormalLobe(spreadFacets(normal, variance, 0.0), k, share);
 }
-//? else
+#else
 int lobesOfTexel() { return 1; }
 
 NormalLobe lobeOfTexel(float variance, vec3 normal, int k, float share) {
-  const float sharpness = 1e6;  // a mirror, sharper than any environment map  //? if roughness_bin
-  float sharpness = 1.0 / variance;                                            //? else
+#if ROUGHNESS_BIN
+  const float sharpness = 1e6;  // a mirror, sharper than any environment map
+#else
+  float sharpness = 1.0 / variance;
+#endif
   return NormalLobe(normal, sharpness, share, lobeFromVariance(variance), false, normal);
 }
-//? end
+#endif
 
 int lobeCount(Effective e) { return lobesOfTexel() * drawCount(e); }
 
@@ -201,15 +218,15 @@ NormalLobe normalLobe(Effective e, int i) {
   DrawnTexel texel = drawnTexel(e, number);
   vec3 normal = normalOf(texel.code, evenPoint(number).zw);
   NormalLobe lobe = lobeOfTexel(texel.variance, normal, i - number * lobesOfTexel(), texel.share);
-//? if surface_microfacets
+#if SURFACE_MICROFACETS
   // Walter 2007: D over the cosine, masked about the surface's own normal.
   lobe.weight /= max(lobe.axis.z, 1e-3);
   lobe.normal = vec3(0.0, 0.0, 1.0);
-//? end
+#endif
   return lobe;
 }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
   return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
 }
-//? end
+#endif

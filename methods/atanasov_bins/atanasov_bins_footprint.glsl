@@ -1,11 +1,15 @@
 // Sums the texels under a footprint: one by one if it is small, otherwise by bins, whose trees count texels.
-//? include atanasov_bins_walk.glsl
+#include "atanasov_bins_walk.glsl"
 
 struct Effective {
   Footprint footprint;
   float variance;  // of the base lobe
-  vec3 mean;       // of the normals  //? if diffuse
-  float drawn;     // the share of drawn texels that have a normal  //? if lobes_listed
+#if DIFFUSE
+  vec3 mean;       // of the normals
+#endif
+#if LOBES_LISTED
+  float drawn;     // the share of drawn texels that have a normal
+#endif
 };
 
 // Texels, or cells of the square, row by row.
@@ -55,7 +59,7 @@ Sum notWhole() {
   return Sum(no_number, no_number);
 }
 
-//? if roughness_lobe and roughness_variation
+#if ROUGHNESS_LOBE && ROUGHNESS_VARIATION
 // The variance of the roughness texels under a texel; the footprint's mean if the maps have different coordinates.
 float varianceAt(Effective e, ivec2 texel) {
   if (bins_own_roughness == 0.0) return e.variance;
@@ -66,14 +70,17 @@ float varianceAt(Effective e, ivec2 texel) {
 
 // The variance of a list that its spread does not include.
 float varianceOfLists(Effective e) { return bins_own_roughness == 0.0 ? e.variance : 0.0; }
-//? else
+#else
 float varianceAt(Effective e, ivec2 texel) { return e.variance; }
 float varianceOfLists(Effective e) { return e.variance; }
-//? end
+#endif
 
 float texelValue(Effective e, ivec2 texel, uint code, Query q) {
-  return binOfPacked(code) == q.bin ? 1.0 / binSolidAngle() : 0.0;        //? if roughness_bin
-  return valueAbout(varianceAt(e, texel), unpackedNormal(code), 0.0, q);  //? else
+#if ROUGHNESS_BIN
+  return binOfPacked(code) == q.bin ? 1.0 / binSolidAngle() : 0.0;
+#else
+  return valueAbout(varianceAt(e, texel), unpackedNormal(code), 0.0, q);
+#endif
 }
 
 Sum sumOfTexels(Effective e, Region r, Query q) {
@@ -163,7 +170,7 @@ Sum sumBeyond(Effective e, Region r, Query q, float rounds, inout bool finished)
   finished = finished && seen == pieces;
   return sum;
 }
-//? if roughness_bin
+#if ROUGHNESS_BIN
 // A bin's density over a large footprint: its list's share of the area, less that of the list without normals.
 float listCount(Effective e, Query q, float rounds) { return 1.0; }
 
@@ -184,16 +191,18 @@ Sum sumOfLists(Effective e, Region r, Query q, float rounds) {
   if (sum.area < 1e-4 * areaOf(r)) sum = Sum(0.0, 0.0);
   return finished && i == 2 ? sum : notWhole();
 }
-//? else
-//? include atanasov_bins_lobes.glsl
-//? end
+#else
+#include "atanasov_bins_lobes.glsl"
+#endif
 
 // The most texels that are looked up one by one: less than walking `lists` lists costs, with about 64 steps each.
 float texelsWorth(float lists, float rounds) { return min(64.0 * lists, texelRounds(rounds)); }
 
 // The mean over the footprint. If all texels lack a normal it is that of a flat surface.
 float meanValue(Effective e, Query q) {
-  countLobes(1);  //? if roughness_bin
+#if ROUGHNESS_BIN
+  countLobes(1);
+#endif
   Sum sum = Sum(0.0, 0.0);
   int count = regionCount(e.footprint);
   float rounds = regionRounds(count);
@@ -213,13 +222,16 @@ float meanValue(Effective e, Query q) {
     sum.area += weight * part.area;
   } while (++i < count);
   if (sum.area == 0.0) {
-    sum = Sum(q.bin == binOfPacked(up_code) ? 1.0 / binSolidAngle() : 0.0, 1.0);  //? if roughness_bin
-    sum = Sum(valueAbout(e.variance, vec3(0.0, 0.0, 1.0), 0.0, q), 1.0);          //? else
+#if ROUGHNESS_BIN
+    sum = Sum(q.bin == binOfPacked(up_code) ? 1.0 / binSolidAngle() : 0.0, 1.0);
+#else
+    sum = Sum(valueAbout(e.variance, vec3(0.0, 0.0, 1.0), 0.0, q), 1.0);
+#endif
   }
   return finishedValue(e.variance, sum.value / sum.area, q);
 }
 
-//? if diffuse
+#if DIFFUSE
 // Over the texels under a small region: the sum of their normals by area, and the area that has normals.
 vec4 sumOfNormals(Region r) {
   vec4 sum = vec4(0.0);
@@ -247,9 +259,9 @@ vec3 meanUnder(Footprint f) {
 }
 
 vec3 meanNormal(Effective e) { return e.mean; }
-//? end
+#endif
 
-//? if lobes_listed
+#if LOBES_LISTED
 // Draws texels under a footprint (section 2.1) at points that fill it evenly; few texels count by their areas.
 
 // All regions share the draws.
@@ -288,13 +300,17 @@ DrawnTexel drawnTexel(Effective e, int i) {
   texel.share /= e.drawn;
   return texel;
 }
-//? end
+#endif
 
 Effective effective(Footprints f) {
   Effective e;
   e.footprint = f.normal;
   e.variance = baseVariance(f);
-  e.mean = meanUnder(f.normal);  //? if diffuse
-  e.drawn = drawnShare(e);  //? if lobes_listed
+#if DIFFUSE
+  e.mean = meanUnder(f.normal);
+#endif
+#if LOBES_LISTED
+  e.drawn = drawnShare(e);
+#endif
   return e;
 }

@@ -24,8 +24,11 @@ struct Disc {
 
 // The angle beyond which a lobe is below 1e-4 of its peak: 1 - cos is 4.6 alpha^2. GGX's tails reach everywhere.
 float lobeReach(float variance) {
-  return pi;                                             //? if distribution_ggx and roughness_lobe
-  return 2.0 * asin(min(2.1448 * sqrt(variance), 1.0));  //? else
+#if DISTRIBUTION_GGX && ROUGHNESS_LOBE
+  return pi;
+#else
+  return 2.0 * asin(min(2.1448 * sqrt(variance), 1.0));
+#endif
 }
 
 // A cap of about `lists` bins, or fewer if the lobes reach no further. The mean normal of a bin is up to half of the
@@ -37,7 +40,7 @@ Disc discAbout(vec3 centre, int own, WidthClass widths, float reach, float lists
   return Disc(own, widths.across, centre, min(needed, affordable), needed <= affordable);
 }
 
-//? if multi_lobe and roughness_lobe
+#if MULTI_LOBE && ROUGHNESS_LOBE
 // The normal whose facet has the lobe about `axis` turned to h. Among all rotations that take the axis to h, q = (1 +
 // axis.h, axis x h) (c + s axis), that of a facet has no turn about z (facet_frame.glsl): q_z = 0.
 vec3 normalTurning(vec3 axis, vec3 h) {
@@ -58,7 +61,7 @@ Disc discOf(int i, float variance, vec3 h, float lists) {
   float reach = lobeReach(facet_lobes[i].variance + widths.widest);
   return discAbout(normalTurning(facet_lobes[i].axis, h), 0, widths, reach, lists / float(discCount()));
 }
-//? else
+#else
 int discCount() { return int(bins_class_count); }
 float acrossOf(int disc) { return classAt(disc).across; }
 
@@ -66,7 +69,7 @@ Disc discOf(int i, float variance, vec3 h, float lists) {
   WidthClass widths = classAt(i);
   return discAbout(h, i, widths, lobeReach(variance + widths.widest), lists / float(discCount()));
 }
-//? end
+#endif
 
 vec3 centreOf(Disc disc, ivec2 cell) { return squareToHemisphere((vec2(cell) + 0.5) / disc.across); }
 
@@ -104,8 +107,11 @@ vec2 listValue(sampler2D values, int list) {
 
 // The mean slope variance of the texels of a list.
 float listWidth(int list) {
-  return listValue(bins_widths, list).r;  //? if roughness_lobe and roughness_variation
-  return 0.0;                             //? else
+#if ROUGHNESS_LOBE && ROUGHNESS_VARIATION
+  return listValue(bins_widths, list).r;
+#else
+  return 0.0;
+#endif
 }
 
 // The value of a list: one lobe about the mean normal of its texels under the footprint, widened by their variance.
@@ -125,11 +131,11 @@ float valueOfList(int list, ListBin bin, ListSum sum, Effective e, Query q) {
 
 // Whether a disc before `own` contains the bin, because each bin counts once.
 bool isInEarlier(int own, ivec2 cell, Effective e, Query q, float rounds) {
-//? if multi_lobe and roughness_lobe
+#if MULTI_LOBE && ROUGHNESS_LOBE
   for (int i = 0; i < own; ++i) {
     if (isIn(discOf(i, varianceOfLists(e), q.h, mostLists(rounds)), cell)) return true;
   }
-//? end
+#endif
   return false;
 }
 
@@ -141,16 +147,16 @@ int listInCell(int own, Disc disc, ivec2 cell, Effective e, Query q, float round
 
 // Whether the list of a texel is walked.
 bool isNear(Effective e, uint code, float variance, Query q, float rounds) {
-//? if multi_lobe and roughness_lobe
+#if MULTI_LOBE && ROUGHNESS_LOBE
   return isInEarlier(discCount(), cellOfPacked(code, classAt(0).across), e, q, rounds);
-//? else
+#else
   int own = 0;  // not a loop, which would take rounds
   if (discCount() > 1 && variance >= classAt(1).from) own = 1;
   if (discCount() > 2 && variance >= classAt(2).from) own = 2;
   if (discCount() > 3 && variance >= classAt(3).from) own = 3;
   Disc disc = discOf(own, varianceOfLists(e), q.h, mostLists(rounds));
   return isIn(disc, cellOfPacked(code, disc.across));
-//? end
+#endif
 }
 
 bool reachesAll(Effective e, Query q, float rounds) {

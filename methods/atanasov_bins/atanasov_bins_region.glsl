@@ -5,8 +5,11 @@
 // Eight pixels are drawn together and wait for each other at the end of every loop, so the largest part of the eight
 // counts.
 
-const float other_rounds = 25000.0;  // drawn normals and their reflection  //? if lobes_listed
-const float other_rounds = 5000.0;   // lookups under the footprint         //? else
+#if LOBES_LISTED
+const float other_rounds = 25000.0;  // drawn normals and their reflection
+#else
+const float other_rounds = 5000.0;   // lookups under the footprint
+#endif
 
 // The rounds of one region in one call. The mean of normals takes up to 256 per region, once per pixel.
 float regionRounds(int regions) {
@@ -19,14 +22,14 @@ float regionRounds(int regions) {
 // 0.2 for the texels of small footprints, which some of the eight may have, and 0.86 for lists (bins: 0.88). With
 // hundreds of lights rounds do not suffice for any walk, and all texels are drawn.
 float texelRounds(float rounds) { return min(0.2 * rounds, 4096.0); }
-//? if roughness_bin
+#if ROUGHNESS_BIN
 const float walk_share = 0.4;
 float mostLists(float rounds) { return 1.0; }
-//? else
+#else
 const float walk_share = 0.28;
 float mostLists(float rounds) { return rounds < 600.0 ? 0.0 : min(0.004 * rounds, 128.0); }
 float drawnRounds(float rounds) { return rounds < 600.0 ? 0.6 * rounds : min(0.0625 * rounds, 1024.0); }
-//? end
+#endif
 
 // The rounds of the walk of one of `lists`.
 float walkRounds(float rounds, float lists) { return walk_share * rounds / max(lists, 1.0); }
@@ -34,11 +37,14 @@ float walkRounds(float rounds, float lists) { return walk_share * rounds / max(l
 // The most copies of a map along an axis; larger footprints count as the whole map. A walk takes about four rounds per
 // copy that the footprint touches, and at most two fifths of its rounds are for these.
 float mostPeriods(float rounds) {
-  const float most = 16.0;  //? if roughness_bin
-  const float most = 4.0;   //? else
+#if ROUGHNESS_BIN
+  const float most = 16.0;
+#else
+  const float most = 4.0;
+#endif
   return clamp(sqrt(0.1 * walkRounds(rounds, mostLists(rounds))) - 1.0, 1.0, most);
 }
-//? include parallelogram.glsl
+#include "parallelogram.glsl"
 
 struct Region {
   vec2 centre;   // in texels; (0, 0) is the first texel's corner
@@ -69,7 +75,7 @@ Region regionOf(vec2 centre, mat2 edges, float weight, int regions) {
   return all(lessThan(r.reach, most)) ? r : wholeMap(weight);  // also for NaN
 }
 
-//? if footprint_filter
+#if FOOTPRINT_FILTER
 // The texels that the footprint filter would blend, each as the finest-level texels that it covers.
 int regionCount(Footprint f) { return footprintTexelCount(textureSize(bins_map, 0), f); }
 
@@ -83,18 +89,18 @@ Region regionAt(Footprint f, int i) {
   vec2 sides = vec2(finest) / texels;
   return regionOf(uv * vec2(finest), mat2(sides.x, 0.0, 0.0, sides.y), texel.weight, regionCount(f));
 }
-//? else
+#else
 int regionCount(Footprint f) { return 1; }
 
 Region regionAt(Footprint f, int i) {
   mat2 edges = mat2(f.dx * mapSize(), f.dy * mapSize());
-//? if footprint_box
+#if FOOTPRINT_BOX
   vec2 sides = abs(edges[0]) + abs(edges[1]);
   edges = mat2(sides.x, 0.0, 0.0, sides.y);
-//? end
+#endif
   return regionOf(f.uv * mapSize(), edges, 1.0, 1);
 }
-//? end
+#endif
 
 // The position of a box relative to a region.
 const int outside = 0;

@@ -25,17 +25,17 @@ int listOfKey(uint key) {
   }
   return -1;
 }
-//? include atanasov_bins_region.glsl
+#include "atanasov_bins_region.glsl"
 
 const uint leaf_size = 16u;
 
 // The part of a list under a footprint.
 struct ListSum {
   float area;
-//? if not roughness_bin
+#if !ROUGHNESS_BIN
   vec2 offset;   // by area: offset of normals from the middle of their bin, in bins
   vec2 squares;  // by area: square of the offset
-//? end
+#endif
 };
 
 // The bin of a list: its middle in bins, and bins along an edge.
@@ -46,21 +46,21 @@ struct ListBin {
 
 void addNormals(inout ListSum sum, float area, vec2 offset, float variance) {
   sum.area += area;
-//? if not roughness_bin
+#if !ROUGHNESS_BIN
   sum.offset += area * offset;
   sum.squares += area * (offset * offset + variance);
-//? end
+#endif
 }
 
 // Adds a share of a texel.
 void addTexel(inout ListSum sum, ivec2 texel, float area, ListBin bin) {
-//? if roughness_bin
+#if ROUGHNESS_BIN
   addNormals(sum, area, vec2(0.0), 0.0);
-//? else
+#else
   countLookups(1);
   vec2 point = (vec2(unpacked(wordOf(texelFetch(bins_map, texel, 0)))) + 0.5) / 65536.0;
   addNormals(sum, area, point * bin.across - bin.middle, 0.0);
-//? end
+#endif
 }
 
 // One sample in each eighth of a node's texels, in 128ths, at uneven distances because maps have patterns. The offset
@@ -99,7 +99,9 @@ void addSample(inout ListSum sum, inout float share, Region r, Counted node, int
   if (abs(own - 0.5) < 0.499)
     own = mix(shareOfBox(r, texel, 0.0883883 * node.sides), own, float(node.texels) / (node.sides.x * node.sides.y));
   share += 0.125 * own;
-  if (node.texels <= leaf_size) addTexel(sum, texel, 0.125 * own * float(node.texels), bin);  //? if not roughness_bin
+#if !ROUGHNESS_BIN
+  if (node.texels <= leaf_size) addTexel(sum, texel, 0.125 * own * float(node.texels), bin);
+#endif
 }
 
 // Eight calls, because a loop would take rounds.
@@ -114,14 +116,14 @@ void addCounted(inout ListSum sum, Region r, Counted node, ListBin bin) {
   addSample(sum, share, r, node, 6, bin);
   addSample(sum, share, r, node, 7, bin);
   float area = share * float(node.texels);
-//? if roughness_bin
+#if ROUGHNESS_BIN
   addNormals(sum, area, vec2(0.0), 0.0);
-//? else
+#else
   if (node.texels <= leaf_size) return;
   uint moments = wordAt(bins_moments, node.at);
   vec3 value = vec3(moments & 0xFFFu, moments >> 12 & 0xFFFu, moments >> 24) / vec3(4095.0, 4095.0, 510.0);
   addNormals(sum, area, value.xy - 0.5, value.z * value.z);
-//? end
+#endif
 }
 
 // A power of two. Depth-first halving of 2^28 texels down to 16, always the larger part of an odd side, takes 26 steps.
@@ -170,15 +172,21 @@ Node texelNode(uint i) {
 
 // The side below which a node at the border counts by samples: a quarter of that of a square as large as the footprint.
 float sampledSide(Region r) {
-  return 0.0;                     //? if border_texels
-  return 0.25 * sqrt(areaOf(r));  //? else
+#if BORDER_TEXELS
+  return 0.0;
+#else
+  return 0.25 * sqrt(areaOf(r));
+#endif
 }
 
 // Whether the walk is depth first. Otherwise it visits large nodes first, so that all remaining nodes have one size
 // when rounds run out. They suffice for every texel at the border at about 3 per texel of its length.
 bool isDepthFirst(Region r, float rounds) {
-  return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;  //? if border_texels
-  return false;                                                     //? else
+#if BORDER_TEXELS
+  return 6.0 * (length(r.edges[0]) + length(r.edges[1])) < rounds;
+#else
+  return false;
+#endif
 }
 
 // Adds a node that waited.
@@ -236,13 +244,13 @@ void addCopy(inout ListSum sum, Region r, TexelList list, ListBin bin, float las
       bool counts_b = side_b == cut && (ends || all(lessThan(vec2(b.upper - b.lower), sampled_side)));
       bool waits_a = side_a == cut && !counts_a;
       bool waits_b = side_b == cut && !counts_b;
-//? if roughness_bin
+#if ROUGHNESS_BIN
       if (side_a == inside) sum.area += float(a.end - begin);
       if (side_b == inside) sum.area += float(b.end - b_begin);
-//? else
+#else
       counts_a = counts_a || side_a == inside;
       counts_b = counts_b || side_b == inside;
-//? end
+#endif
       bool are_texels = leaf && !itself;
       int aside = most_pending + (are_texels ? most_counted - 1 - texels : nodes);
       int slot_b = counts_b ? aside : (first + pending) & (most_pending - 1);
@@ -301,8 +309,11 @@ Region inCopy(Region r, ivec2 copy) {
 
 // Sums a list with at most `rounds` rounds of loops, which copies of the map share, plus a few for each copy.
 ListSum sumOfList(Region r, TexelList list, ListBin bin, float rounds, inout bool finished) {
-  ListSum sum = ListSum(0.0);                        //? if roughness_bin
-  ListSum sum = ListSum(0.0, vec2(0.0), vec2(0.0));  //? else
+#if ROUGHNESS_BIN
+  ListSum sum = ListSum(0.0);
+#else
+  ListSum sum = ListSum(0.0, vec2(0.0), vec2(0.0));
+#endif
   vec2 size = mapSize();
   ivec2 columns = copiesAlong(r.centre.x, r.reach.x, size.x, bins_wrap_u);
   ivec2 rows = copiesAlong(r.centre.y, r.reach.y, size.y, bins_wrap_v);

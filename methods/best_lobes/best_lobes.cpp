@@ -208,7 +208,7 @@ const Method& best_lobes_method() {
                .slow_precompute = true,
                .slow_frame = true},
       .precompute = precompute,
-      .shader = module_of(best_lobes_glsl, "best_lobes.glsl", {{"density_fast", false}}),
+      .shader = module_of(best_lobes_glsl, "best_lobes.glsl"),
       .lobe_count = [](const Options& options) { return 8 * static_cast<int>(settings_of(options).lobes); }};
   return method;
 }

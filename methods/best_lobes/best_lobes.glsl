@@ -9,13 +9,17 @@ struct Peak {
   float weight;
 };
 
-const int peaks = int(option_k);  //? if normal_variation
-const int peaks = 1;              //? else
+#if NORMAL_VARIATION
+const int peaks = int(option_k);
+#else
+const int peaks = 1;
+#endif
 
-//? include summed_peaks.glsl
-//? include stretched_part.glsl
+#include "summed_peaks.glsl"
+const bool fast_density = false;
+#include "stretched_part.glsl"
 
-//? if normal_variation
+#if NORMAL_VARIATION
 ivec2 peakMapSize() { return textureSize(best_lobes_first, 0).xy; }
 
 Peak peakOf(FootprintTexel texel, int i) {
@@ -25,11 +29,14 @@ Peak peakOf(FootprintTexel texel, int i) {
   // Texels without a fit have no factor.
   return Peak(directionFromDisc(stored.xy), stored.z, spread.xyz, spread.w > 0.0 ? spread.w : 1.0, stored.w);
 }
-//? end
+#endif
 
 vec3 meanOfNormals(Footprints f) {
-  return fetch(best_lobes_mean, f.normal).xyz;  //? if normal_variation and diffuse
-  return vec3(0.0, 0.0, 1.0);                   //? else
+#if NORMAL_VARIATION && DIFFUSE
+  return fetch(best_lobes_mean, f.normal).xyz;
+#else
+  return vec3(0.0, 0.0, 1.0);
+#endif
 }
 
 // Stereographic coordinates of an axis.
@@ -41,12 +48,12 @@ Peak upPeak() { return Peak(vec3(0.0, 0.0, 1.0), -1.0, vec3(0.0), 1.0, 1.0); }
 // width. Elsewhere it has the energy of the base lobe.
 Part partOf(Effective e, Peak peak) {
   float deviation = max(peak.deviation, 0.0);
-//? if normal_variation and roughness_variation
+#if NORMAL_VARIATION && ROUGHNESS_VARIATION
   if (best_lobes_joint > 0.5 && peak.deviation >= 0.0) {
     float own = best_lobes_narrowest + deviation * deviation;
     return stretchedPart(peak.factor, planeOf(peak.axis), peak.spread, lobeFromVariance(own), own);
   }
-//? end
+#endif
   float variance = e.variance + deviation * deviation;
   float width = lobeFromVariance(variance);
   float energy = lobeEnergy(lobeFromVariance(e.variance)) / lobeEnergy(width);
@@ -60,10 +67,10 @@ float peakReflectance(Effective e, Peak peak, vec3 h, vec3 wi, vec3 wo) {
   return peakDensity(e, peak, h) * geometryFactor(lobeFromVariance(e.variance), peak.axis, h, wi, wo);
 }
 
-//? if lobes_listed
+#if LOBES_LISTED
 NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share) {
   NormalLobe lobe = baseNormalLobe(peak.axis, lobeFromVariance(partOf(e, peak).breadth), share);
   lobe.base = lobeFromVariance(e.variance);
   return lobe;
 }
-//? end
+#endif

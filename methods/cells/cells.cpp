@@ -177,12 +177,7 @@ const Method& cells_method() {
                .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
                .slow_precompute = true},
       .precompute = precompute,
-      // common_slopes.glsl reads these flags of `lean`.
-      .shader = module_of(cells_glsl, "cells.glsl",
-                          {{"variant_clean", false},
-                           {"roughness_stretched", true},
-                           {"roughness_moments", false},
-                           {"part_colours", true}}),
+      .shader = module_of(cells_glsl, "cells.glsl"),
       .lobe_count = [](const Options& options) { return Settings{options}.parts; }};
   return method;
 }

@@ -1,5 +1,5 @@
 // A part with moments of slopes: LEAN's lobe with a share.
-//? include common_slopes.glsl
+#include "stretched_slopes.glsl"
 
 struct Part {
   SlopeLobe slopes;
@@ -7,7 +7,9 @@ struct Part {
   float share;    // of the footprint; 0: no part
   float lobe;     // parameter of a facet's lobe
   float breadth;  // slope variance per axis about `axis`, a facet's lobe included
-  mat2 widths;    // squared alphas of both about `axis`  //? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
+  mat2 widths;    // squared alphas of both about `axis`
+#endif
 };
 
 struct Direction {
@@ -18,8 +20,11 @@ Direction directionOf(vec3 h) { return Direction(h); }
 
 Part stretchedPart(float share, vec2 mean, vec3 spread, float lobe, float variance) {
   SlopeLobe slopes = slopeLobe(mean, mat2(spread.x, spread.y, spread.y, spread.z), variance);
-  return Part(slopes, slopes.axis, share, lobe, slopes.breadth, slopes.widths);  //? if anisotropic_lobe
-  return Part(slopes, slopes.axis, share, lobe, slopes.breadth);                 //? else
+#if ANISOTROPIC_LOBE
+  return Part(slopes, slopes.axis, share, lobe, slopes.breadth, slopes.widths);
+#else
+  return Part(slopes, slopes.axis, share, lobe, slopes.breadth);
+#endif
 }
 
 float partDensity(Part p, Direction at) { return p.share <= 0.0 ? 0.0 : p.share * slopeDensity(p.slopes, at.h); }

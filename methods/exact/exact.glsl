@@ -1,17 +1,19 @@
 // Sums the base BRDF over the texels of the finest level under a kernel. Samples of a supersampled image draw one texel
 // each, as the reference does. A material without varying maps is a single facet everywhere.
-//? if not sampling_frame or not normal_variation and not normal_layers and not roughness_variation
-//? include base_surface.glsl
-//? if environment_summed
+#if !SAMPLING_FRAME || !NORMAL_VARIATION && !NORMAL_LAYERS && !ROUGHNESS_VARIATION
+#include "base_surface.glsl"
+#if ENVIRONMENT_SUMMED
 
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environment_stack.glsl
 
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return environmentLit(e, s, wo, frame); }
-//? end
-//? else
+#endif
+#else
 // Facets at places of the finest level, and sums over facets. Places form a grid over one map, the normal map if there is
 // one. A place is a texel of it, or a part of a texel if another map is finer.
-//? include normal_layers.glsl if normal_layers
+#if NORMAL_LAYERS
+#include "normal_layers.glsl"
+#endif
 
 // Maps a distance from the pixel's centre on the grid's map to coordinates on another map. All coordinates are linear over
 // a pixel.
@@ -23,9 +25,15 @@ struct Mapped {
 struct Effective {
   Footprint footprint;  // on the grid's map
   vec2 size;            // of the whole map, in places
-  Facets facets;  // which the environment lights in the current call  //? if environment_summed
-  Mapped layer;  //? if normal_variation and normal_layers
-  Mapped roughness;  //? if roughness_variation
+#if ENVIRONMENT_SUMMED
+  Facets facets;  // which the environment lights in the current call
+#endif
+#if NORMAL_VARIATION && NORMAL_LAYERS
+  Mapped layer;
+#endif
+#if ROUGHNESS_VARIATION
+  Mapped roughness;
+#endif
 };
 
 // A position q of the pixel's centre and edges (dx, dy), q in [-1/2, 1/2]^2, is at uv + (dx dy) q on each map.
@@ -48,25 +56,28 @@ vec2 partsOf(vec2 grid_size, Mapped other, vec2 other_size) {
 Effective effective(Footprints f) {
   Effective e;
   vec2 parts = vec2(1.0);
-//? if normal_variation
+#if NORMAL_VARIATION
   e.footprint = f.normal;
   e.size = vec2(textureSize(base_normal, 0));
-//? if normal_layers
+#if NORMAL_LAYERS
   e.layer = mappedFrom(f.normal, f.layer);
   parts = max(parts, partsOf(e.size, e.layer, vec2(textureSize(base_layer, 0))));
-//? end
-//? elif normal_layers
+#endif
+#elif NORMAL_LAYERS
   e.footprint = f.layer;
   e.size = vec2(textureSize(base_layer, 0));
-//? else
+#else
   e.footprint = f.roughness;
   e.size = vec2(textureSize(base_roughness, 0));
-//? end
-//? if roughness_variation
-  e.roughness = Mapped(f.roughness.uv, mat2(1.0));     //? if shared_coordinates and normal_variation
-  e.roughness = mappedFrom(e.footprint, f.roughness);  //? else
+#endif
+#if ROUGHNESS_VARIATION
+#if SHARED_COORDINATES && NORMAL_VARIATION
+  e.roughness = Mapped(f.roughness.uv, mat2(1.0));
+#else
+  e.roughness = mappedFrom(e.footprint, f.roughness);
+#endif
   parts = max(parts, partsOf(e.size, e.roughness, vec2(textureSize(base_roughness, 0))));
-//? end
+#endif
   e.size *= parts;
   return e;
 }
@@ -79,11 +90,11 @@ struct Query {
   vec3 h;
   vec3 wi;
   vec3 wo;
-//? if environment_summed
+#if ENVIRONMENT_SUMMED
   bool surrounded;  // only the environment light
   Surface surface;
   mat3 frame;
-//? end
+#endif
 };
 
 Query reflectanceQuery(vec3 wi, vec3 wo) {
@@ -93,7 +104,9 @@ Query reflectanceQuery(vec3 wi, vec3 wo) {
   q.h = halfVector(wi, wo);
   q.wi = wi;
   q.wo = wo;
-  q.surrounded = false;  //? if environment_summed
+#if ENVIRONMENT_SUMMED
+  q.surrounded = false;
+#endif
   return q;
 }
 
@@ -109,7 +122,9 @@ struct Sum {
   float specular;  // densities, times geometry factors if facets reflect
   float facing;    // cosines to wi, 0 for facets that face away
   float weight;
-  vec3 radiance;  //? if environment_summed
+#if ENVIRONMENT_SUMMED
+  vec3 radiance;
+#endif
 };
 
 // Facets are summed in groups, because a single 32-bit sum of many thousand terms would lose about one percent.
@@ -118,7 +133,9 @@ Sum evenSum(float value) {
   sum.specular = value;
   sum.facing = value;
   sum.weight = value;
-  sum.radiance = vec3(value);  //? if environment_summed
+#if ENVIRONMENT_SUMMED
+  sum.radiance = vec3(value);
+#endif
   return sum;
 }
 
@@ -128,55 +145,61 @@ void addSum(inout Sum sum, Sum part, float weight) {
   sum.specular += weight * part.specular;
   sum.facing += weight * part.facing;
   sum.weight += weight * part.weight;
-  sum.radiance += weight * part.radiance;  //? if environment_summed
+#if ENVIRONMENT_SUMMED
+  sum.radiance += weight * part.radiance;
+#endif
 }
 
 vec4 normalAt(Effective e, vec2 uv) {
-//? if normal_variation
+#if NORMAL_VARIATION
   countLookups(1);
   vec4 normal = textureLod(base_normal, uv, 0.0);
-//? if normal_layers
+#if NORMAL_LAYERS
   vec4 layer = textureLod(base_layer, e.layer.centre + e.layer.turn * (uv - e.footprint.uv), 0.0);
   return vec4(withSlopesAdded(normal.xyz, layer.xyz), min(normal.w, layer.w));
-//? else
+#else
   return normal;
-//? end
-//? elif normal_layers
+#endif
+#elif NORMAL_LAYERS
   vec4 layer = textureLod(base_layer, uv, 0.0);
   return vec4(withSlopesAdded(vec3(0.0, 0.0, 1.0), layer.xyz), layer.w);
-//? else
+#else
   return vec4(0.0, 0.0, 1.0, 1.0);
-//? end
+#endif
 }
 
 Facets facetsAbout(Effective e, vec3 normal, vec2 uv) {
-//? if roughness_variation
+#if ROUGHNESS_VARIATION
   vec2 at = e.roughness.centre + e.roughness.turn * (uv - e.footprint.uv);
-  stretch = textureLod(stretch_map, at, 0.0).xy;  //? if anisotropy_variation
+#if ANISOTROPY_VARIATION
+  stretch = textureLod(stretch_map, at, 0.0).xy;
+#endif
   return evenFacets(normal, lobeFromRoughness(textureLod(base_roughness, at, 0.0).r));
-//? else
+#else
   return evenFacets(normal, lobe_cutoff.x);
-//? end
+#endif
 }
 
-//? if environment_summed
-//? include facet_normal_lobes.glsl
+#if ENVIRONMENT_SUMMED
+#include "facet_normal_lobes.glsl"
 
 vec3 meanNormal(Effective e) { return e.facets.normal; }
 
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // of e's facets: environment_stack.glsl
 
-//? end
+#endif
 void addFacets(inout Sum sum, Effective e, Facets facets, float weight, Query q) {
   sum.weight += weight;
-//? if environment_summed
+#if ENVIRONMENT_SUMMED
   if (q.surrounded) {
     e.facets = facets;
     sum.radiance += weight * environmentLit(e, q.surface, q.wo, q.frame);
     return;
   }
-//? end
-  sum.facing += weight * max(dot(facets.normal, q.wi), 0.0);  //? if diffuse
+#endif
+#if DIFFUSE
+  sum.facing += weight * max(dot(facets.normal, q.wi), 0.0);
+#endif
   if (!q.has_half_vector) return;
   sum.specular += weight * (q.reflects ? facetReflectance(facets, q.h, q.wi, q.wo) : facetDensity(facets, q.h));
 }
@@ -205,7 +228,7 @@ Sum meanOf(Sum sum, Effective e, Query q) {
   return mean;
 }
 
-//? include random_numbers.glsl
+#include "random_numbers.glsl"
 
 // The place that represents a cell of `edge` x `edge` places. It is drawn by a hash of the cell, so that tiles and
 // neighbouring pixels agree.
@@ -215,38 +238,49 @@ vec2 placeIn(ivec2 cell, float edge) {
   return (vec2(cell) + (vec2(bits.xy >> 8u) + 0.5) * (1.0 / 16777216.0)) * edge;
 }
 
-//? if environment_summed
+#if ENVIRONMENT_SUMMED
 // The most texels for environment light, within the 65535 rounds of loops per pixel (notWhole). A texel takes 1 round, or
 // 14 for a lobe with a tail. Fewer texels suffice than for lights, because environment light varies less between texels.
 float mostSurroundedTexels() {
-  const float rounds = 14.0;  //? if distribution_ggx
-  const float rounds = 1.0;   //? else
+#if DISTRIBUTION_GGX
+  const float rounds = 14.0;
+#else
+  const float rounds = 1.0;
+#endif
   return 20000.0 / (rounds * float(facetLobeCount()));
 }
 
-//? end
+#endif
 // The most texels that are looked up one by one, which all parts of a pixel share.
 float mostTexels(Query q) {
   float most = option_texels * option_texels;
-  if (q.surrounded) most = min(most, mostSurroundedTexels());  //? if environment_summed
-  return most / float(footprint_parts * footprint_parts);  //? if filter_shaded
-  return most;                                             //? else
+#if ENVIRONMENT_SUMMED
+  if (q.surrounded) most = min(most, mostSurroundedTexels());
+#endif
+#if FILTER_SHADED
+  return most / float(footprint_parts * footprint_parts);
+#else
+  return most;
+#endif
 }
-//? include exact_filter.glsl if kernel_filter
-//? include exact_pixel.glsl if not kernel_filter
+#if KERNEL_FILTER
+#include "exact_filter.glsl"
+#else
+#include "exact_pixel.glsl"
+#endif
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Sum sum = sumOver(e, reflectanceQuery(wi, wo));
   Reflected r;
   r.specular = fresnelTerm(s.f0, wi, wo) * sum.specular;
-//? if diffuse
+#if DIFFUSE
   r.diffuse = diffuse(wi * sum.facing, s, wi, wo);  // its dot product with wi is the mean of the facets'
-//? end
+#endif
   return r;
 }
 
 float ndf(Effective e, vec3 h) { return sumOver(e, densityQuery(h)).specular; }
-//? if environment_summed
+#if ENVIRONMENT_SUMMED
 
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) {
   Query q = reflectanceQuery(wo, wo);
@@ -255,5 +289,5 @@ vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) {
   q.frame = frame;
   return sumOver(e, q).radiance;
 }
-//? end
-//? end
+#endif
+#endif

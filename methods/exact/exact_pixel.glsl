@@ -8,13 +8,13 @@
 //
 // Therefore no polygon has to be clipped. Any constant may be added to K, because the integral of k(x) dx around P is 0.
 
-//? include parallelogram.glsl
+#include "parallelogram.glsl"
 
-//? if kernel_areas
+#if KERNEL_AREAS
 const float weight_reach = 0.5;  // of k to either side
 
 float texelShare(vec2 centre, mat2 edges) { return coveredArea(centre, edges); }
-//? else
+#else
 const float weight_reach = 1.0;  // of k to either side
 
 // k(x) K(y) of tents: linear times quadratic on each side of 0.
@@ -61,7 +61,7 @@ float texelShare(vec2 centre, mat2 edges) {
                  alongEdge(corner + edges[1], edges[0]) - alongEdge(corner, edges[1]);
   return max(determinant(edges) > 0.0 ? -around : around, 0.0);
 }
-//? end
+#endif
 
 // Narrower parallelograms are widened to this, because rounding would dominate their weights. Bilinear weights change by
 // less than half of it over its width.

@@ -7,11 +7,14 @@ leaves_out = ["anisotropic_lobe", "normal_layers"]
 */
 // Filters geometry but not reflectance: the renormalised mean normal with the lobe of the texel at the pixel's centre (Tan
 // 2005, figure 8d).
-//? include mean_normal.glsl
-//? include facets_module.glsl
+#include "mean_normal.glsl"
+#include "facets_module.glsl"
 
 Effective effective(Footprints f) {
-  float lobe = lobeFromRoughness(fetchFinest(finest_roughness, f.roughness).r);  //? if roughness_variation
-  float lobe = lobe_cutoff.x;                                                    //? else
+#if ROUGHNESS_VARIATION
+  float lobe = lobeFromRoughness(fetchFinest(finest_roughness, f.roughness).r);
+#else
+  float lobe = lobe_cutoff.x;
+#endif
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }

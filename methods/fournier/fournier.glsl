@@ -6,23 +6,29 @@ struct Peak {
   float weight;
 };
 
-const int peaks = int(option_peaks);  //? if normal_variation
-const int peaks = 1;                  //? else
+#if NORMAL_VARIATION
+const int peaks = int(option_peaks);
+#else
+const int peaks = 1;
+#endif
 
-//? include summed_peaks.glsl
+#include "summed_peaks.glsl"
 
-//? if normal_variation
+#if NORMAL_VARIATION
 ivec2 peakMapSize() { return textureSize(fournier_first, 0).xy; }
 
 Peak peakOf(FootprintTexel texel, int i) {
   vec4 stored = layerOf(fournier_first, fournier_rest, texel, i);
   return Peak(stored.xy, stored.z, stored.w);
 }
-//? end
+#endif
 
 vec3 meanOfNormals(Footprints f) {
-  return fetch(fournier_mean, f.normal).xyz;  //? if normal_variation and diffuse
-  return vec3(0.0, 0.0, 1.0);                 //? else
+#if NORMAL_VARIATION && DIFFUSE
+  return fetch(fournier_mean, f.normal).xyz;
+#else
+  return vec3(0.0, 0.0, 1.0);
+#endif
 }
 
 Peak upPeak() { return Peak(vec2(0.0), 0.0, 1.0); }
@@ -37,8 +43,8 @@ float peakReflectance(Effective e, Peak peak, vec3 h, vec3 wi, vec3 wo) {
   return facetReflectance(facetsOf(e, peak), h, wi, wo);
 }
 
-//? if lobes_listed
+#if LOBES_LISTED
 NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share) {
   return facetNormalLobe(facetsOf(e, peak), k, share);
 }
-//? end
+#endif

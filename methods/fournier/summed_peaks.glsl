@@ -1,7 +1,7 @@
 // Peaks of every texel of the mip chain, which cannot be blended with those of neighbouring texels. Therefore the peaks
 // of all texels of the footprint are scaled by the texels' weights and summed for every light. Includers define `struct
 // Peak` with a weight, `const int peaks` of a texel above the finest level, and the functions below.
-//? include lobe_variance.glsl
+#include "lobe_variance.glsl"
 
 struct Effective {
   Footprint footprint;
@@ -10,7 +10,7 @@ struct Effective {
   float total;     // under an environment: the weight of all peaks, below 1 if texels lack normals
 };
 
-//? if normal_variation
+#if NORMAL_VARIATION
 ivec2 peakMapSize();                       // of the finest level
 Peak peakOf(FootprintTexel texel, int i);  // heaviest first
 
@@ -20,7 +20,7 @@ vec4 layerOf(sampler2DArray first, sampler2DArray rest, FootprintTexel texel, in
   texel.level -= 1.0;
   return fetchTexel(rest, i - 1, texel);
 }
-//? end
+#endif
 vec3 meanOfNormals(Footprints f);
 Peak upPeak();  // the surface's own normal, with weight 1
 float peakDensity(Effective e, Peak peak, vec3 h);
@@ -32,15 +32,20 @@ vec3 directionFromDisc(vec2 p) {
   return vec3(p * sqrt(1.0 - quarter), 1.0 - 2.0 * quarter);
 }
 
-float weightOfPeaks(Footprint f);  //? if lobes_listed
+#if LOBES_LISTED
+float weightOfPeaks(Footprint f);
+#endif
 
 Effective effective(Footprints f) {
   Effective e;
   e.footprint = f.normal;
   e.mean = meanOfNormals(f);
   e.variance = baseVariance(f);
-  e.total = weightOfPeaks(f.normal);  //? if lobes_listed
-  e.total = 1.0;                      //? else
+#if LOBES_LISTED
+  e.total = weightOfPeaks(f.normal);
+#else
+  e.total = 1.0;
+#endif
   return e;
 }
 
@@ -50,7 +55,7 @@ float reflectedByPeak(Effective e, Peak peak, vec3 h, bool with_geometry, vec3 w
 
 // The sum over all peaks of their densities at h, with or without their geometry factors.
 float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
-//? if normal_variation
+#if NORMAL_VARIATION
   float sum = 0.0;
   float total = 0.0;  // below 1 if texels lack normals
   ivec2 finest = peakMapSize();
@@ -70,7 +75,7 @@ float sumOfPeaks(Effective e, vec3 h, bool with_geometry, vec3 wi, vec3 wo) {
     } while (++i < here);
   } while (++t < texels);
   if (total > 0.0) return sum / total;
-//? end
+#endif
   return reflectedByPeak(e, upPeak(), h, with_geometry, wi, wo);
 }
 
@@ -79,21 +84,21 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo))
     r.specular = fresnelTerm(s.f0, wi, wo) * sumOfPeaks(e, halfVector(wi, wo), true, wi, wo);
-//? if diffuse
+#if DIFFUSE
   // The dot product with the mean normal is the mean over the facets while all of them face the light.
   float size = length(e.mean);
   vec3 n = size > 1e-6 ? e.mean / size : vec3(0.0, 0.0, 1.0);
   r.diffuse = diffuse(n, s, wi, wo) * min(size, 1.0);
-//? end
+#endif
   return r;
 }
 
 float ndf(Effective e, vec3 h) { return sumOfPeaks(e, h, false, h, h); }
 
-//? if lobes_listed
+#if LOBES_LISTED
 NormalLobe peakNormalLobe(Effective e, Peak peak, int k, float share);  // of the base BRDF's lobe k
 
-//? if normal_variation
+#if NORMAL_VARIATION
 float weightOfPeaks(Footprint f) {
   float total = 0.0;
   ivec2 finest = peakMapSize();
@@ -124,15 +129,15 @@ NormalLobe normalLobe(Effective e, int i) {
   if (there) peak = peakOf(texel, number % peaks);
   return peakNormalLobe(e, peak, k, there ? texel.weight * max(peak.weight, 0.0) / e.total : 0.0);
 }
-//? else
+#else
 float weightOfPeaks(Footprint f) { return 1.0; }
 int lobeCount(Effective e) { return facetLobeCount(); }
 NormalLobe normalLobe(Effective e, int i) { return peakNormalLobe(e, upPeak(), i, 1.0); }
-//? end
+#endif
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
   return geometryFactor(lobe.base, lobe.normal, h, wi, wo);
 }
 
 vec3 meanNormal(Effective e) { return e.mean; }
-//? end
+#endif

@@ -2,14 +2,14 @@
 // axes and sharpnesses are the material's, and their amplitudes depend on the pair. Convolved with the base BRDF they
 // give the effective BRDF.
 
-//? include iwasaki_sg_lobes.glsl
+#include "iwasaki_sg_lobes.glsl"
 
 // Constant over pixels, because the tables serve the whole material.
 struct Effective {
   int count;  // of lobes
 };
 
-//? if microgeometry_visibility or normal_variation
+#if MICROGEOMETRY_VISIBILITY || NORMAL_VARIATION
 int tableLobes() { return textureSize(iwasaki_lobes, 0).x; }
 // Axis and sharpness of a lobe of the facets' normals.
 vec4 lobeOf(int j) {
@@ -22,16 +22,16 @@ float shareOf(int j) {
   countLookups(1);
   return texelFetch(iwasaki_lobes, ivec2(j, 1), 0).x;
 }
-//? else
+#else
 int tableLobes() { return 1; }
 vec4 lobeOf(int j) { return vec4(0.0, 0.0, 1.0, ownSharpness(sharpest)); }
 float shareOf(int j) { return 1.0; }
-//? end
+#endif
 
 Effective effective(Footprints f) { return Effective(tableLobes()); }
 
-//? if microgeometry_visibility
-//? include direction_grid.glsl
+#if MICROGEOMETRY_VISIBILITY
+#include "direction_grid.glsl"
 
 // The position of a pair of directions in the table: one tile for each cell of wo, with one texel for each cell of wi.
 // The sampler interpolates between cells of wi, and four tiles are interpolated between cells of wo.
@@ -62,19 +62,22 @@ vec4 tableLayer(int layer, TableTexels texels) {
 
 // The values of the table: the lobes, followed by the diffuse term. In colour each has a layer, otherwise four share a
 // layer.
-const int values_per_layer = 1;                                         //? if microgeometry_colour
-const int values_per_layer = 4;                                         //? else
-vec3 valueIn(vec4 layer, int value) { return layer.rgb; }               //? if microgeometry_colour
-vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }  //? else
+#if MICROGEOMETRY_COLOUR
+const int values_per_layer = 1;
+vec3 valueIn(vec4 layer, int value) { return layer.rgb; }
+#else
+const int values_per_layer = 4;
+vec3 valueIn(vec4 layer, int value) { return vec3(layer[value & 3]); }
+#endif
 
 vec3 tableAt(int value, TableTexels texels) { return valueIn(tableLayer(value / values_per_layer, texels), value); }
-//? end
+#endif
 
 // The base BRDF's density of half vectors, averaged over the normals of a lobe.
 float convolved(vec4 lobe, vec3 h) {
-//? if lobe_base
+#if LOBE_BASE
   return lobeDensity(lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), lobe.xyz, h);
-//? else
+#else
   float sum = 0.0;
   int count = textureSize(iwasaki_brdf, 0).x;
   countLookups(count);
@@ -82,30 +85,33 @@ float convolved(vec4 lobe, vec3 h) {
   int s = 0;
   do {
     vec2 brdf = texelFetch(iwasaki_brdf, ivec2(s, 0), 0).xy;  // sharpness, amplitude
-    sum += brdf.y * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);             //? if convolution_exact
-    sum += brdf.y * sgApproximateConvolution(lobe.xyz, lobe.w, h, brdf.x);  //? else
+#if CONVOLUTION_EXACT
+    sum += brdf.y * sgConvolution(lobe.xyz, lobe.w, h, brdf.x);
+#else
+    sum += brdf.y * sgApproximateConvolution(lobe.xyz, lobe.w, h, brdf.x);
+#endif
   } while (++s < count);
   return sum / sgIntegral(lobe.w);
-//? end
+#endif
 }
 
 // The geometry term of the facets of a lobe, at the normal that maximises the product of lobe and base BRDF, because it
 // varies slowly (Wang et al. 2009 treat smooth factors of a BRDF in this way).
 float smoothFactor(vec4 lobe, vec3 h, vec3 wi, vec3 wo) {
-//? if cosines_published and microgeometry_visibility
+#if COSINES_PUBLISHED && MICROGEOMETRY_VISIBILITY
   return max(wi.z, 0.0);  // the table stores the facets' cosine divided by this one
-//? elif cosines_published
+#elif COSINES_PUBLISHED
   return max(dot(lobe.xyz, wi), 0.0);
-//? elif masking_shadowing or horizon_open
+#elif MASKING_SHADOWING || HORIZON_OPEN
   vec3 sum = lobe.w * lobe.xyz + h / lobeVariance(lobe_cutoff.x);
   vec3 n = sum / max(length(sum), 1e-6);
   return geometryFactor(lobe_cutoff.x, n, h, wi, wo);
-//? else
+#else
   return 1.0;
-//? end
+#endif
 }
 
-//? if microgeometry_visibility and tabulated_brdf
+#if MICROGEOMETRY_VISIBILITY && TABULATED_BRDF
 // The factor on the lobes of a tabulated BRDF by the difference angle.
 vec3 riseOf(vec3 h, vec3 wi) {
   int last = textureSize(iwasaki_rise, 0).x - 1;
@@ -140,38 +146,38 @@ vec3 tabulatedReflection(Effective e, vec3 wi, vec3 wo) {
   } while (++j < lobes);
   return (shine * riseOf(h, wi) + matte * texelFetch(iwasaki_table, ivec2(0), 0).yzw) * max(wi.z, 0.0);
 }
-//? end
+#endif
 
 // f * cos of the facets with their own lobes.
 vec3 lobesReflect(Effective e, vec3 f0, vec3 wi, vec3 wo) {
   if (!halfVectorIsDefined(wi, wo)) return vec3(0.0);
   vec3 h = halfVector(wi, wo);
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
   TableTexels texels = tableTexels(wi, wo);
   vec4 layer = vec4(0.0);
-//? end
+#endif
   vec3 sum = vec3(0.0);
   int count = lobesHere(e.count);
   int j = 0;
   do {
     vec4 lobe = lobeOf(j);
     float reflected = convolved(lobe, h) * smoothFactor(lobe, h, wi, wo);
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
     if (j % values_per_layer == 0) layer = tableLayer(j / values_per_layer, texels);
     sum += valueIn(layer, j) * reflected;
-//? else
+#else
     sum += shareOf(j) * reflected;
-//? end
+#endif
   } while (++j < count);
   return fresnelTerm(f0, wi, wo) * sum;
 }
 
-//? if diffuse
+#if DIFFUSE
 vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
   // The table stores the facets' cosines divided by that of the whole surface.
   return diffuse(vec3(0.0, 0.0, 1.0), s, wi, wo) * tableAt(e.count, tableTexels(wi, wo));
-//? else
+#else
   vec3 sum = vec3(0.0);
   int count = lobesHere(e.count);
   int j = 0;
@@ -180,21 +186,25 @@ vec3 meanDiffuse(Effective e, Surface s, vec3 wi, vec3 wo) {
     sum += shareOf(j) * meanCosine(lobe.w) * diffuse(lobe.xyz, s, wi, wo);
   } while (++j < count);
   return sum;
-//? end
+#endif
 }
-//? end
+#endif
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
-//? if microgeometry_visibility and tabulated_brdf
+#if MICROGEOMETRY_VISIBILITY && TABULATED_BRDF
   if (iwasaki_tabulated > 0.5) {
     r.specular = tabulatedReflection(e, wi, wo);
-    r.diffuse = vec3(0.0);  // included in tabulatedReflection  //? if diffuse
+#if DIFFUSE
+    r.diffuse = vec3(0.0);  // included in tabulatedReflection
+#endif
     return r;
   }
-//? end
+#endif
   r.specular = lobesReflect(e, s.f0, wi, wo);
-  r.diffuse = meanDiffuse(e, s, wi, wo);  //? if diffuse
+#if DIFFUSE
+  r.diffuse = meanDiffuse(e, s, wi, wo);
+#endif
   return r;
 }
 
@@ -204,4 +214,6 @@ float ndf(Effective e, vec3 h) {
   return sum;
 }
 
-//? include iwasaki_sg_environment.glsl if lobes_listed
+#if LOBES_LISTED
+#include "iwasaki_sg_environment.glsl"
+#endif

@@ -1,15 +1,18 @@
 // Environment light: each lobe of normals and each lobe of the facets' BRDF combine to one lobe over half vectors
 // (equation 14). lobeReflectance has the factor of the pair of directions, and visibleFacets the diffuse term.
 
-int baseLobeCount() { return 1; }                               //? if lobe_base
-int baseLobeCount() { return textureSize(iwasaki_brdf, 0).x; }  //? else
+#if LOBE_BASE
+int baseLobeCount() { return 1; }
+#else
+int baseLobeCount() { return textureSize(iwasaki_brdf, 0).x; }
+#endif
 
-//? if tabulated_brdf
+#if TABULATED_BRDF
 int ownLobeCount() { return iwasaki_tabulated > 0.5 ? textureSize(iwasaki_table, 0).x - 1 : baseLobeCount(); }
 vec4 tabulatedLobe(int s) { return texelFetch(iwasaki_table, ivec2(s + 1, 0), 0); }  // lobe 0 is the diffuse term
-//? else
+#else
 int ownLobeCount() { return baseLobeCount(); }
-//? end
+#endif
 
 int lobeCount(Effective e) { return e.count * ownLobeCount(); }
 
@@ -22,23 +25,26 @@ NormalLobe normalLobe(Effective e, int i) {
   int own = ownLobeCount();
   int j = i / own;
   vec4 lobe = lobeOf(j);
-  float share = 1.0;  // the table stores the visible share of a pair of directions  //? if microgeometry_visibility
-  float share = shareOf(j);                                                          //? else
-//? if tabulated_brdf
+#if MICROGEOMETRY_VISIBILITY
+  float share = 1.0;  // the table stores the visible share of a pair of directions
+#else
+  float share = shareOf(j);
+#endif
+#if TABULATED_BRDF
   if (iwasaki_tabulated > 0.5) {
     float sharpness = tabulatedLobe(i % own).x;
     return convolvedLobe(lobe, sharpness, share * sgIntegral(sharpness));
   }
-//? end
-//? if lobe_base
+#endif
+#if LOBE_BASE
   return baseNormalLobe(lobe.xyz, lobeFromVariance(lobeVariance(lobe_cutoff.x) + 1.0 / lobe.w), share);
-//? else
+#else
   vec2 brdf = texelFetch(iwasaki_brdf, ivec2(i % own, 0), 0).xy;
   return convolvedLobe(lobe, brdf.x, share * brdf.y * sgIntegral(brdf.x));
-//? end
+#endif
 }
 
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
 // The mean height of the part of a vMF lobe above the horizon: that of a Gaussian in the plane tangent to the sphere at
 // the lobe's centre. At the zenith it is the mean cosine to the axis.
 float meanHeight(float height, float sharpness) {
@@ -55,16 +61,19 @@ vec3 lobeReflectance(Effective e, int i, vec3 f0, vec3 h, vec3 wi, vec3 wo, floa
   int own = ownLobeCount();
   int j = i / own;
   vec3 amplitude = tableAt(j, tableTexels(wi, wo));
-//? if tabulated_brdf
+#if TABULATED_BRDF
   if (iwasaki_tabulated > 0.5) {
     return amplitude * tabulatedLobe(i % own).yzw * riseOf(h, wi) * meanHeight(wi.z, sharpness);
   }
-//? end
-  return fresnelTerm(f0, wi, wo) * amplitude * meanHeight(wi.z, sharpness);         //? if cosines_published
-  return fresnelTerm(f0, wi, wo) * amplitude * smoothFactor(lobeOf(j), h, wi, wo);  //? else
+#endif
+#if COSINES_PUBLISHED
+  return fresnelTerm(f0, wi, wo) * amplitude * meanHeight(wi.z, sharpness);
+#else
+  return fresnelTerm(f0, wi, wo) * amplitude * smoothFactor(lobeOf(j), h, wi, wo);
+#endif
 }
 
-//? if environment_diffuse
+#if ENVIRONMENT_DIFFUSE
 // The diffuse term of the facets that a viewer sees: its reflectance under a constant environment, and a mean normal
 // with about their irradiance.
 DiffuseFacets visibleFacets(Effective e, vec3 wo) {
@@ -72,16 +81,19 @@ DiffuseFacets visibleFacets(Effective e, vec3 wo) {
   vec2 uv = clamp(hemisphereToSquare(wo) * side, 0.5, side - 0.5) / side;
   vec3 share = textureLod(iwasaki_diffuse, vec3(uv, 0.0), 0.0).rgb;
   vec3 mean_normal = textureLod(iwasaki_diffuse, vec3(uv, 1.0), 0.0).xyz;
-//? if tabulated_brdf
+#if TABULATED_BRDF
   if (iwasaki_tabulated > 0.5) {
     return DiffuseFacets(mean_normal, share * pi * texelFetch(iwasaki_table, ivec2(0), 0).yzw, true);
   }
-//? end
-  return DiffuseFacets(mean_normal, share, false);                                               //? if diffuse
-  return DiffuseFacets(mean_normal, vec3(0.0), false);  // only tables have a diffuse term here  //? else
+#endif
+#if DIFFUSE
+  return DiffuseFacets(mean_normal, share, false);
+#else
+  return DiffuseFacets(mean_normal, vec3(0.0), false);  // only tables have a diffuse term here
+#endif
 }
-//? end
-//? else
+#endif
+#else
 // The lobe of a NormalLobe, found by its axis.
 int lobeAbout(Effective e, vec3 axis) {
   int nearest = 0;
@@ -100,13 +112,15 @@ vec3 meanNormal(Effective e) {
   for (int j = 0; j < e.count; ++j) sum += shareOf(j) * meanCosine(lobeOf(j).w) * lobeOf(j).xyz;
   return sum;
 }
-//? end
+#endif
 
-//? if environment_summed
+#if ENVIRONMENT_SUMMED
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame);  // environment_stack.glsl
-//? if environment_gaussians and diffuse and not tabulated_brdf
+#if ENVIRONMENT_GAUSSIANS && DIFFUSE && !TABULATED_BRDF
 vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame);
-float visibleElevation(vec3 direction, float elevation);  //? if environment_visibility
+#if ENVIRONMENT_VISIBILITY
+float visibleElevation(vec3 direction, float elevation);
+#endif
 
 // The diffuse term under Gaussians of light, each from its axis (after equation 16). What is visible of one is the share
 // of a Gaussian beyond the nearest edge, as far as that is from the axis (Wang et al. 2009); the horizon is an edge too.
@@ -121,7 +135,9 @@ vec3 gaussianDiffuse(Effective e, Surface s, vec3 wo, mat3 frame) {
     vec3 wi = gaussian.xyz * frame;
     if (wi.z <= 0.0) continue;
     float height = wi.z;
-    height = visibleElevation(gaussian.xyz, height);  //? if environment_visibility
+#if ENVIRONMENT_VISIBILITY
+    height = visibleElevation(gaussian.xyz, height);
+#endif
     float visible = normalCdf(asin(clamp(height, -1.0, 1.0)) * sqrt(gaussian.w));
     sum += visible * light * meanDiffuse(e, s, wi, wo);
   } while (++k < count);
@@ -131,7 +147,7 @@ vec3 gaussianDiffuse(Effective e, Surface s, vec3 wo, mat3 frame) {
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) {
   return environmentSpecular(e, s.f0, wo, frame) + gaussianDiffuse(e, s, wo, frame);
 }
-//? else
+#else
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame) { return environmentLit(e, s, wo, frame); }
-//? end
-//? end
+#endif
+#endif

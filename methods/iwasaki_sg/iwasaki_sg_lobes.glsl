@@ -1,6 +1,6 @@
 // Spherical Gaussians of unit amplitude, e^{eta (w.axis - 1)}: twins of spherical_gaussian.cpp.
 
-//? include vmf.glsl
+#include "vmf.glsl"
 
 // The fit represents a discretised normal by a lobe of this sharpness (lobe_fit.hpp). Removing this width, which no
 // facet has, keeps normals that agree from widening the base lobe.

@@ -132,7 +132,7 @@ TEST(SphericalGaussian, ErrorOfTheSgFormFallsWithTheSquareOfTheSharpness) {
 
 std::string functions() {
   ShaderModule module = iwasaki_sg_method().shader;
-  module.text = "//? include iwasaki_sg_lobes.glsl\n//? include direction_grid.glsl\n";
+  module.text = "#include \"iwasaki_sg_lobes.glsl\"\n#include \"direction_grid.glsl\"\n";
   return shared_functions(shader_flags({}, Options(iwasaki_sg_method().info.options, {}, "test")), module);
 }
 

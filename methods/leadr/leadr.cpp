@@ -86,13 +86,7 @@ const Method& leadr_method() {
                                        "visible area, as on a displaced surface.")},
                .honours = map_effects_but({Effect::multi_lobe})},
       .precompute = precompute,
-      // footprint_slopes.glsl reads these flags, which only `lean` sets otherwise.
-      .shader = module_of(leadr_glsl, "leadr.glsl",
-                          {{"variant_clean", false},
-                           {"with_mean_normal", false},
-                           {"averages_variance", true},
-                           {"averages_roughness", false},
-                           {"averages_lobe", false}})};
+      .shader = module_of(leadr_glsl, "leadr.glsl")};
   return method;
 }
 

@@ -10,13 +10,19 @@ choices = ["roughness", "lobe"]
 meaning = "What of a varying lobe is averaged: the perceptual roughness, as a texture stores it, or the lobe's own parameter (exponent, alpha, kappa), as Xu 2017 does."
 */
 // One lobe about the renormalised mean normal, as wide as a facet of the mean roughness or the mean lobe parameter.
-//? include mean_normal.glsl
-//? include mean_roughness.glsl if averages_roughness
-//? include facets_module.glsl
+#include "mean_normal.glsl"
+#if AVERAGES_ROUGHNESS
+#include "mean_roughness.glsl"
+#endif
+#include "facets_module.glsl"
 
 Effective effective(Footprints f) {
-  float lobe = baseLobe(f);                      //? if averages_roughness
-  float lobe = fetch(mean_lobe, f.roughness).r;  //? elif roughness_variation
-  float lobe = lobe_cutoff.x;                    //? else
+#if AVERAGES_ROUGHNESS
+  float lobe = baseLobe(f);
+#elif ROUGHNESS_VARIATION
+  float lobe = fetch(mean_lobe, f.roughness).r;
+#else
+  float lobe = lobe_cutoff.x;
+#endif
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
 }

@@ -146,7 +146,7 @@ const Method& ndf_atlas_method() {
                .honours = map_effects_but({Effect::multi_lobe, Effect::normal_layers}),
                .slow_precompute = true},
       .precompute = precompute,
-      .shader = module_of(ndf_atlas_glsl, "ndf_atlas.glsl", {{"density_fast", true}, {"storage_unorm8", false}}),
+      .shader = module_of(ndf_atlas_glsl, "ndf_atlas.glsl"),
       .lobe_count = [](const Options& options) { return Settings{options}.parts; }};
   return method;
 }

@@ -1,26 +1,36 @@
 // From one level on, tables of the density of normals over the half vector, if normals differ enough. Otherwise moments
 // of a few parts of the normals, with one stretched base lobe per part (methods/ndf_atlas/README.md).
-const int parts = int(option_k);  //? if normal_variation
-const int parts = 1;              //? else
+#if NORMAL_VARIATION
+const int parts = int(option_k);
+#else
+const int parts = 1;
+#endif
 const int part_channels = 6;
-//? include stretched_part.glsl
-//? include part_moments.glsl
-//? include mean_normal.glsl if normal_variation
+const bool fast_density = true;
+#include "stretched_part.glsl"
+#include "part_moments.glsl"
+#if NORMAL_VARIATION
+#include "mean_normal.glsl"
+#endif
 
-//? include ndf_atlas_tables.glsl if normal_variation and sampling_frame
+#if NORMAL_VARIATION && SAMPLING_FRAME
+#include "ndf_atlas_tables.glsl"
+#endif
 
 struct Effective {
   Part part[parts];
   float lobe_share;   // share of the parts; the rest is that of the tables
   float table_share;  // over the coverage of the texels that have tables
-  Tables tables;  //? if normal_variation and sampling_frame
+#if NORMAL_VARIATION && SAMPLING_FRAME
+  Tables tables;
+#endif
   float narrowing;    // how far the mean normal of facets that reflect to h is on the way to h
   float lobe;         // of a facet
   vec3 axis;          // of the mean normal
   vec3 mean_normal;   // not renormalised: its dot product is the mean of the texels'
 };
 
-//? if normal_variation and sampling_frame
+#if NORMAL_VARIATION && SAMPLING_FRAME
 // The shares of tables and lobes, by the ratio of spread and lobe. A lobe is exact where normals agree, and a table is
 // off by a hundredth everywhere.
 const vec2 tabulated_ratio = vec2(0.2, 0.4);
@@ -33,22 +43,22 @@ void fillTables(inout Effective e, Footprint f, float ratio) {
                 clamp((ratio - tabulated_ratio.x) / (tabulated_ratio.y - tabulated_ratio.x), 0.0, 1.0);
   float covered = findTables(f, finest, p, e.tables);
   if (share <= 0.0 || covered <= 0.0) {
-//? if not fixed_trips
+#if !FIXED_TRIPS
     e.tables.probes.count = 0;  // not a constant: compilers would not unroll the loops over lights
-//? end
+#endif
     return;
   }
   e.table_share = share / covered;
   e.lobe_share = 1.0 - share;
 }
-//? end
+#endif
 
-//? if lobes_listed
+#if LOBES_LISTED
 const float whole_chain = 100.0;  // coarser than any level; the sampler of the moments has levels only
 Part surrounded[parts];  // of the whole footprint, with or without tables
-//? end
+#endif
 
-//? if normal_variation
+#if NORMAL_VARIATION
 Part partOf(Moments m, int i, float covered, BaseLobe base) {
   if (m.first.x < least_share * covered) return absentPart();
   vec2 mean = m.first.yz / m.first.x;
@@ -72,15 +82,17 @@ void fillTexels(inout Effective e, Footprints f, BaseLobe base) {
   e.mean_normal = normal.xyz * normal.w;
   float ratio = (1.0 - normal.w) / (max(normal.w, 1e-3) * base.variance);  // slope variance of the normals over that of the lobe
   e.narrowing = ratio / (1.0 + ratio);
-//? if sampling_frame
+#if SAMPLING_FRAME
   fillTables(e, f.normal, ratio);
   fillParts(f, ndf_atlas_level - 1.0, base, e.part);
-//? else
+#else
   fillParts(f, any_level, base, e.part);
-//? end
-  fillParts(f, whole_chain, base, surrounded);  //? if lobes_listed
+#endif
+#if LOBES_LISTED
+  fillParts(f, whole_chain, base, surrounded);
+#endif
 }
-//? end
+#endif
 
 Effective effective(Footprints f) {
   Effective e;
@@ -91,18 +103,23 @@ Effective effective(Footprints f) {
   e.narrowing = 0.0;
   e.axis = vec3(0.0, 0.0, 1.0);
   e.mean_normal = vec3(0.0, 0.0, 1.0);
-//? if normal_variation
+#if NORMAL_VARIATION
   fillTexels(e, f, base);
-//? else
+#else
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
-  surrounded[0] = e.part[0];  //? if lobes_listed
-//? end
+#if LOBES_LISTED
+  surrounded[0] = e.part[0];
+#endif
+#endif
   return e;
 }
 
 float tabulatedDensity(Effective e, vec3 h) {
-  return e.table_share * tableSum(e.tables, h);  //? if normal_variation and sampling_frame
-  return 0.0;                                    //? else
+#if NORMAL_VARIATION && SAMPLING_FRAME
+  return e.table_share * tableSum(e.tables, h);
+#else
+  return 0.0;
+#endif
 }
 
 float ndf(Effective e, vec3 h) {
@@ -125,9 +142,9 @@ float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) {
 
 vec3 meanNormal(Effective e) { return e.mean_normal; }
 
-//? include density_module.glsl
+#include "density_module.glsl"
 
-//? if lobes_listed
+#if LOBES_LISTED
 int lobeCount(Effective e) { return parts * lobes_per_part; }
 
 NormalLobe normalLobe(Effective e, int i) { return partLobe(surrounded[i / lobes_per_part], i % lobes_per_part); }
@@ -135,4 +152,4 @@ NormalLobe normalLobe(Effective e, int i) { return partLobe(surrounded[i / lobes
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
   return baseGeometry(lobe.base, lobe.normal, h, wi, wo);
 }
-//? end
+#endif

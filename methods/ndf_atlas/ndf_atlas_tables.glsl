@@ -26,8 +26,11 @@ struct TableLookup {
 
 // The lookups of the first probes, shared by all lights; the others are computed again. Indexing an array by a variable
 // is the most expensive operation here on llvmpipe. The array is not in Effective, which is copied for each light.
-const int shared_count = 4;  //? if several_probes
-const int shared_count = 2;  //? else
+#if SEVERAL_PROBES
+const int shared_count = 4;
+#else
+const int shared_count = 2;
+#endif
 TableLookup shared_lookups[shared_count];
 
 // A material without tables has a single block.

@@ -1,6 +1,6 @@
 // One lobe with two widths as KHR_materials_anisotropy draws it, from the texture of roughness_bake.hpp.
-//? include mean_normal.glsl
-//? include anisotropic_widths.glsl
+#include "mean_normal.glsl"
+#include "anisotropic_widths.glsl"
 
 struct Effective {
   vec3 normal;
@@ -31,13 +31,13 @@ float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) { return ndf(e, h)
 
 vec3 meanNormal(Effective e) { return e.normal; }
 
-//? include density_module.glsl
+#include "density_module.glsl"
 
-//? if lobes_listed
-//? include lobe_row.glsl
+#if LOBES_LISTED
+#include "lobe_row.glsl"
 int lobeCount(Effective e) { return row_count; }
 
 NormalLobe normalLobe(Effective e, int i) { return lobeOfWidths(squaredAlphas(e), e.normal, i, 1.0); }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) { return factor(e, h, wi, wo); }
-//? end
+#endif

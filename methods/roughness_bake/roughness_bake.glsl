@@ -1,17 +1,17 @@
 // The mean normal under a lobe as wide as engines bake it into roughness mips.
-//? if anisotropic_on and normal_variation
-//? include anisotropic_roughness.glsl
-//? else
-//? include mean_normal.glsl
-//? include facets_module.glsl
-//? include baked_roughness.glsl
+#if ANISOTROPIC_ON && NORMAL_VARIATION
+#include "anisotropic_roughness.glsl"
+#else
+#include "mean_normal.glsl"
+#include "facets_module.glsl"
+#include "baked_roughness.glsl"
 
 Effective effective(Footprints f) {
   float variance = lobeVariance(baseLobe(f));
   float added = 0.5 * bakedAlpha2(f) - variance;
-//? if multi_lobe
+#if MULTI_LOBE
   added = max(added, 0.0);  // of a formula that may narrow: one of several lobes has no variance to spare
-//? end
+#endif
   return Effective(spreadFacets(meanNormal(f).xyz, variance, added));
 }
-//? end
+#endif

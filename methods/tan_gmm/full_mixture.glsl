@@ -1,21 +1,26 @@
 // Components with a full covariance over the disc (option covariance=full). A texel stores weight, first and second
 // moments of each component, which reflects with the base lobe, stretched to its covariance.
-const int parts = int(option_n);  //? if normal_variation
-const int parts = 1;              //? else
+#if NORMAL_VARIATION
+const int parts = int(option_n);
+#else
+const int parts = 1;
+#endif
 const int part_channels = 6;
-//? include stretched_part.glsl
-//? include parts_module.glsl
+const bool fast_density = true;
+#include "stretched_part.glsl"
+#include "parts_module.glsl"
+#include "even_parts.glsl"
 
 BaseLobe lobeOfFacets(Footprints f) {
-//? if roughness_variation
+#if ROUGHNESS_VARIATION
   float variance = facetVariance(f);
   return BaseLobe(lobeFromVariance(variance), variance);
-//? else
+#else
   return baseLobe(f);
-//? end
+#endif
 }
 
-//? if normal_variation
+#if NORMAL_VARIATION
 // Converts from the disc of (n_x, n_y) to stereographic coordinates, linearly about the mean. Lengths along the tilt
 // are cosine times those on the sphere, lengths across it are equal, and lengths on the plane are (1 + |p|^2) / 2 times
 // those on the sphere. On the rim a component keeps its width along the tilt over the disc.
@@ -54,20 +59,20 @@ void fillParts(inout Effective e, Footprints f) {
     e.part[i] = partOverDisc(m.first.x / covered, mean, covarianceOf(mean, m.second / m.first.x), base);
     e.mean_normal += e.part[i].share * e.part[i].axis;
   }
-//? if diffuse and specular_joint and specular_variation
+#if DIFFUSE && SPECULAR_JOINT && SPECULAR_VARIATION
   e.mean_normal = fetch(tan_gmm_normal, f.normal).xyz;  // by area, because the colours weigh the parts
-//? end
+#endif
 }
-//? end
+#endif
 
 Effective effective(Footprints f) {
   Effective e;
-//? if normal_variation
+#if NORMAL_VARIATION
   fillParts(e, f);
-//? else
+#else
   BaseLobe base = lobeOfFacets(f);
   e.mean_normal = vec3(0.0, 0.0, 1.0);
   e.part[0] = stretchedPart(1.0, vec2(0.0), vec3(0.0), base.parameter, base.variance);
-//? end
+#endif
   return e;
 }

@@ -93,7 +93,7 @@ Image normals_of(const Material& material, bool coloured, Prefiltered& out) {
   return normals;
 }
 
-// `lobe_variance` with weights by colour: w v and w, because their quotient does not filter linearly.
+// The texture of lobe_variance.glsl with weights by colour: w v and w, because their quotient does not filter linearly.
 void add_weighed_variance(const Material& material, Storage storage, RoughnessMean mean, Prefiltered& out) {
   const Image variances = lobe_variance_map(material);
   const Image weights = weights_over(variances, roughness_coordinates(material), material, out);
@@ -103,7 +103,7 @@ void add_weighed_variance(const Material& material, Storage storage, RoughnessMe
     weighed.texels[2 * i + 1] = weights.texels[i];
   }
   out.textures.push_back(
-      make_texture("lobe_variance", mip_chain(std::move(weighed)), storage, roughness_coordinates(material)));
+      make_texture(stored_lobe_name(mean), mip_chain(std::move(weighed)), storage, roughness_coordinates(material)));
 }
 
 Prefiltered precompute(const Material& material, const Options& options, const EffectSet& effects,
@@ -146,7 +146,7 @@ const Method& tan_gmm_method() {
                .honours = map_effects_but({Effect::anisotropic_lobe, Effect::normal_layers}),
                .slow_precompute = true},
       .precompute = precompute,
-      .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl", {{"density_fast", true}, {"part_colours", false}}),
+      .shader = module_of(tan_gmm_glsl, "tan_gmm.glsl"),
       .lobe_count = [](const Options& options) { return static_cast<int>(fit_settings(options).components); }};
   return method;
 }

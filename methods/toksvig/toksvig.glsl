@@ -21,8 +21,8 @@ meaning = "The diffuse term's normal: the mean normal, whose dot product is the 
 //   1 / s' = 1 / s + (1 - |Na|) / |Na|,
 // is a sum of slope variances per axis and therefore applies to every distribution: 1 / s becomes alpha^2 / 2 for Beckmann
 // and GGX (Walter 2007, section 5.2), and 1 / kappa for vMF.
-//? include mean_normal.glsl
-//? include lobe_variance.glsl
+#include "mean_normal.glsl"
+#include "lobe_variance.glsl"
 
 struct Effective {
   Facets facets;
@@ -37,17 +37,22 @@ Effective effective(Footprints f) {
 
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r = facetShade(e.facets, s, wi, wo);
-  r.diffuse *= e.consistency;  //? if diffuse and diffuse_mean
+#if DIFFUSE && DIFFUSE_MEAN
+  r.diffuse *= e.consistency;
+#endif
   return r;
 }
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
-//? if lobes_listed
-//? include facet_normal_lobes.glsl
+#if LOBES_LISTED
+#include "facet_normal_lobes.glsl"
 
 vec3 meanNormal(Effective e) {
-  return e.facets.normal * e.consistency;  //? if diffuse_mean
-  return e.facets.normal;                  //? else
+#if DIFFUSE_MEAN
+  return e.facets.normal * e.consistency;
+#else
+  return e.facets.normal;
+#endif
 }
-//? end
+#endif

@@ -46,7 +46,7 @@ Recovered recovered(const Material& material, const std::map<std::string, std::s
   SamplerCache samplers;
   gl::api().BindTextureUnit(0, texture.texture->name());
   gl::api().BindSampler(0, samplers.sampler(texture.coordinates, SamplerState::trilinear));
-  const ShaderFlags flags = shader_flags(variant, options);
+  const ShaderFlags flags = shader_flags(variant, options, baked);
   const std::string text =
       "layout(binding = 0) uniform sampler2D mean_normal;\nconst float option_spread = 1.0;\n"
       "vec4 lobe_cutoff;\n" +

@@ -1,9 +1,13 @@
 // Xu, Wang, Zhao, Bao 2017: the effective BRDF is a mixture of von Mises-Fisher lobes, one for each part of the
 // hemisphere of normals. Each lobe is recovered from its characteristic vector, which the texture filter averages.
-//? include xu_vmf_conversion.glsl
-//? include xu_vmf_lobes.glsl
-//? include xu_vmf_parts.glsl if texture_arrays
-//? include xu_vmf_masking.glsl if masking_footprint and masking_shadowing and geometry_smith
+#include "xu_vmf_conversion.glsl"
+#include "xu_vmf_lobes.glsl"
+#if TEXTURE_ARRAYS
+#include "xu_vmf_parts.glsl"
+#endif
+#if MASKING_FOOTPRINT && MASKING_SHADOWING && GEOMETRY_SMITH
+#include "xu_vmf_masking.glsl"
+#endif
 
 // Adds the lobes of the parts that a footprint needs, for each lobe of a facet. Facets without any lobe are flat.
 //
@@ -19,7 +23,7 @@ Effective effective(Footprints f) {
     FacetsLobe own = facetsLobeAt(f, k);
     int first = e.count;
     e.covered = 0.0;
-//? if texture_arrays
+#if TEXTURE_ARRAYS
     Walk walk = walkOver(mapFootprint(f), k, own.shortfall);
     int rounds = 0;
     do {
@@ -30,47 +34,57 @@ Effective effective(Footprints f) {
         e.covered += weight * part.r.w;
       }
     } while (anotherRound(++rounds, walk.next < walk.parts));
-//? end
+#endif
     if (e.count == first) {
       addLobe(e.count, storedLobe(own, own.axis, own.shortfall, own.shortfall, 1.0, 1.0));
       e.covered = 1.0;
     }
-//? if multi_lobe
+#if MULTI_LOBE
     // Each lobe of the facets has its own parts and its own coverage.
     int i = first;
     do {
       weights[i] *= own.weight / vec2(amountsOf(e.covered), e.covered);
-      shares[i].x *= own.weight / amountsOf(e.covered);  //? if lobes_listed or masking_footprint
+#if LOBES_LISTED || MASKING_FOOTPRINT
+      shares[i].x *= own.weight / amountsOf(e.covered);
+#endif
     } while (++i < e.count);
     e.covered = 1.0;
-//? end
+#endif
   }
   e.normal = vec3(0.0, 0.0, 1.0);
-//? if multi_lobe and texture_arrays
+#if MULTI_LOBE && TEXTURE_ARRAYS
   vec4 normals = fetch(xu_vmf_whole, facet_lobe_count, mapFootprint(f));
   if (normals.w >= least_share) e.normal = axisOf(normals.xyz / normals.w);
-//? end
+#endif
   return e;
 }
 
 // Facets with lobes about their own axes mask each other by their normals.
 vec3 geometryAxis(vec3 normal, vec3 mean) {
-  if (facet_lobe_count > 0) return normal / max(length(normal), 1e-6);  //? if multi_lobe
+#if MULTI_LOBE
+  if (facet_lobe_count > 0) return normal / max(length(normal), 1e-6);
+#endif
   return mean;
 }
 
 // The geometry factor of a lobe. `of_all`: that of all lobes, if one masks another.
 float lobeFactor(Effective e, vec3 mean, float base, float of_all, vec3 h, vec3 wi, vec3 wo) {
-//? if masking_footprint and masking_shadowing and geometry_smith
-  if (facet_lobe_count == 0) return of_all;  //? if multi_lobe
-  return of_all;                             //? else
-//? end
+#if MASKING_FOOTPRINT && MASKING_SHADOWING && GEOMETRY_SMITH
+#if MULTI_LOBE
+  if (facet_lobe_count == 0) return of_all;
+#else
+  return of_all;
+#endif
+#endif
   return geometryFactor(base, geometryAxis(e.normal, mean), h, wi, wo);
 }
 
 float factorOfAll(Effective e, vec3 wi, vec3 wo) {
-  return footprintFactor(e.count, wi, wo);  //? if masking_footprint and masking_shadowing and geometry_smith
-  return 1.0;                               //? else
+#if MASKING_FOOTPRINT && MASKING_SHADOWING && GEOMETRY_SMITH
+  return footprintFactor(e.count, wi, wo);
+#else
+  return 1.0;
+#endif
 }
 
 // One loop for both terms, because reading a lobe is expensive.
@@ -89,17 +103,17 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
   if (halfVectorIsDefined(wi, wo)) r.specular = fresnelTerm(s.f0, wi, wo) * (sum / amountsOf(e.covered));
-//? if diffuse
+#if DIFFUSE
   vec3 n = (cosine / e.covered) * wi;  // any normal with that cosine to the light
   float size = 1.0;
-//? if multi_lobe
+#if MULTI_LOBE
   if (facet_lobe_count > 0) {
     size = max(length(e.normal), 1e-6);
     n = e.normal / size;
   }
-//? end
+#endif
   r.diffuse = size * diffuse(n, s, wi, wo);
-//? end
+#endif
   return r;
 }
 
@@ -112,7 +126,7 @@ float ndf(Effective e, vec3 h) {
   return sum / amountsOf(e.covered);
 }
 
-//? if lobes_listed
+#if LOBES_LISTED
 int lobeCount(Effective e) { return e.count; }
 
 // A lobe reflects the share that its facets cover, seen along their own normals, and masks as they do. The integral of
@@ -120,17 +134,17 @@ int lobeCount(Effective e) { return e.count; }
 NormalLobe normalLobe(Effective e, int i) {
   Lobe lobe = lobeOf(lobes[i], weights[i]);
   float share = shares[i].x / amountsOf(e.covered);
-//? if lobe_base
-//? if distribution_ggx
+#if LOBE_BASE
+#if DISTRIBUTION_GGX
   // Along its axis GGX reflects 1 / (1 + alpha^2) of a furnace; the rest is below its horizon.
   share *= (1.0 + lobe.base * lobe.base) / (1.0 + shares[i].y * shares[i].y);
-//? end
+#endif
   NormalLobe normals = baseNormalLobe(lobe.mean, lobe.base, share);
   normals.base = shares[i].y;
   return normals;
-//? else
+#else
   return vmfNormalLobe(lobe.mean, lobe.kappa, share, shares[i].y);
-//? end
+#endif
 }
 
 float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
@@ -138,9 +152,11 @@ float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) {
-  if (facet_lobe_count > 0) return e.normal;  //? if multi_lobe
+#if MULTI_LOBE
+  if (facet_lobe_count > 0) return e.normal;
+#endif
   vec3 sum = vec3(0.0);
   for (int i = 0; i < e.count; ++i) sum += weights[i].y * lobes[i].xyz;
   return sum / e.covered;
 }
-//? end
+#endif

@@ -1,5 +1,5 @@
 // The later passes of the frame build: compute one level of some layers from the next finer level.
-//? include xu_vmf_storing.glsl
+#include "xu_vmf_storing.glsl"
 
 layout(location = 0) out vec4 coarse[layer_count];
 

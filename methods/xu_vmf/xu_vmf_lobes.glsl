@@ -13,31 +13,39 @@ FacetsLobe facetsLobe(vec3 axis, float parameter, float weight) {
 
 // The lobe of the mean slope variance if the roughness varies.
 FacetsLobe baseLobe(Footprints f) {
-//? if roughness_variation
+#if ROUGHNESS_VARIATION
   return facetsLobe(vec3(0.0, 0.0, 1.0), lobeFromVariance(fetch(xu_vmf_variances, f.roughness).r), 1.0);
-//? else
+#else
   return facetsLobe(vec3(0.0, 0.0, 1.0), lobe_cutoff.x, 1.0);
-//? end
+#endif
 }
 
-//? if multi_lobe
+#if MULTI_LOBE
 int facetsLobeCount() { return max(facet_lobe_count, 1); }
 FacetsLobe facetsLobeAt(Footprints f, int k) {
   if (facet_lobe_count > 0) return facetsLobe(facet_lobes[k].axis, facet_lobes[k].parameter, facet_lobes[k].weight);
   return baseLobe(f);
 }
-//? else
+#else
 int facetsLobeCount() { return 1; }
 FacetsLobe facetsLobeAt(Footprints f, int k) { return baseLobe(f); }
-//? end
+#endif
 
 // While blending from one lobe to 4 parts, and from each of these to 2, there are 13.
-const int most_of_one = 1;   //? if j_1
-const int most_of_one = 4;   //? elif j_4
-const int most_of_one = 13;  //? elif thresholds_blended
-const int most_of_one = 8;   //? else
-const int most_lobes = most_of_one * most_facet_lobes;  //? if multi_lobe
-const int most_lobes = most_of_one;                     //? else
+#if J_1
+const int most_of_one = 1;
+#elif J_4
+const int most_of_one = 4;
+#elif THRESHOLDS_BLENDED
+const int most_of_one = 13;
+#else
+const int most_of_one = 8;
+#endif
+#if MULTI_LOBE
+const int most_lobes = most_of_one * most_facet_lobes;
+#else
+const int most_lobes = most_of_one;
+#endif
 
 // The data of the pixel's lobes that all lights share.
 struct Effective {
@@ -51,42 +59,53 @@ struct Effective {
 // accesses to an array by a variable index are expensive.
 vec4 lobes[most_lobes];    // mean direction, and width: the parameter of the base lobe, or kappa
 vec2 weights[most_lobes];  // of the density, and of the cosine of the mean normal
-//? if lobes_listed or masking_footprint
+#if LOBES_LISTED || MASKING_FOOTPRINT
 vec2 shares[most_lobes];   // the amount of the lobe, and the parameter of its facets' lobe
-//? end
+#endif
 
 struct Lobe {
   vec3 mean;
-  float kappa;  //? if not lobe_base
+#if !LOBE_BASE
+  float kappa;
+#endif
   float base;    // parameter of the base lobe of that width
   float amount;  // factor on its density
 };
 
 Lobe lobeOf(vec4 lobe, vec2 weights) {
-  return Lobe(lobe.xyz, lobe.w, weights.x);                       //? if lobe_base
-  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights.x);  //? else
+#if LOBE_BASE
+  return Lobe(lobe.xyz, lobe.w, weights.x);
+#else
+  return Lobe(lobe.xyz, lobe.w, lobeOfKappa(lobe.w), weights.x);
+#endif
 }
 
 float densityOf(Lobe lobe, vec3 h) {
-//? if lobe_base
+#if LOBE_BASE
   return lobeDensity(lobe.base, lobe.mean, h);
-//? else
+#else
   countLobes(1);
   return vmfDensity(lobe.kappa, lobe.mean, h);
-//? end
+#endif
 }
 
 // The divisor of the amounts. Algorithm 1 has none: it adds lobes without the weights of equation 15.
 float amountsOf(float covered) {
-  return 1.0;      //? if variant_algorithm1
-  return covered;  //? else
+#if VARIANT_ALGORITHM1
+  return 1.0;
+#else
+  return covered;
+#endif
 }
 
 // The integral of a lobe's density over the integral that facets give it. Line 25 of Algorithm 1 evaluates equation 7,
 // which leaves the divisor of equation 6 out.
 float printedEnergy(float kappa) {
-  return 1.0;                  //? if variant_corrected or lobe_base
-  return oneMinusExp2(kappa);  //? else
+#if VARIANT_CORRECTED || LOBE_BASE
+  return 1.0;
+#else
+  return oneMinusExp2(kappa);
+#endif
 }
 
 // A lobe as stored in the arrays.
@@ -99,7 +118,9 @@ struct StoredLobe {
 void addLobe(inout int count, StoredLobe added) {
   lobes[count] = added.lobe;
   weights[count] = added.weights;
-  shares[count] = added.share;  //? if lobes_listed or masking_footprint
+#if LOBES_LISTED || MASKING_FOOTPRINT
+  shares[count] = added.share;
+#endif
   ++count;
 }
 
@@ -109,15 +130,18 @@ StoredLobe storedLobe(FacetsLobe own, vec3 mean, float q, float width_q, float s
   float kappa = kappaOf(width_q);
   float base = lobeOfKappa(kappa);
   amount *= printedEnergy(kappa);
-//? if sampling_texel
+#if SAMPLING_TEXEL
   // The lobe of the single texel that was drawn is that of a facet. The roughness map may have drawn another one.
   own.shortfall = q;
   own.energy = energyOf(base);
   own.parameter = base;
-//? end
+#endif
   // The mean resultant length of the facets' normals: |r| over that of a single facet.
   float normal_length = min((1.0 - q) / max(1.0 - own.shortfall, 1e-6), 1.0);
-  vec4 lobe = vec4(mean, base);   //? if lobe_base
-  vec4 lobe = vec4(mean, kappa);  //? else
+#if LOBE_BASE
+  vec4 lobe = vec4(mean, base);
+#else
+  vec4 lobe = vec4(mean, kappa);
+#endif
   return StoredLobe(lobe, vec2(amount * own.energy / energyOf(base), share * normal_length), vec2(amount, own.parameter));
 }

@@ -6,14 +6,14 @@
 const float steepest_lobe = 0.31622777;  // its cosine
 
 // The mean of max(w.m, 0) over the facets m of a lobe, for c = w.mean: c (1 + Lambda), in a form for any sign of c.
-//? if distribution_ggx
+#if DISTRIBUTION_GGX
 float facingArea(float base, float c) { return 0.5 * (c + sqrt(c * c + base * base * max(1.0 - c * c, 0.0))); }
-//? else
+#else
 float facingArea(float base, float c) {
   float size = max(abs(c), 1e-4);
   return size * smithLambda(lobeAlpha(base), min(size, 1.0)) + max(c, 0.0);
 }
-//? end
+#endif
 
 // The factor on F D in f * cos: G2 / (4 n.v) about the mean surface, height-correlated (Heitz 2014, equation 99).
 float footprintFactor(int count, vec3 wi, vec3 wo) {

@@ -4,15 +4,15 @@
 const float least_share = 1e-4;
 
 // The rounding error of |r|: half floats lose it from every spread, 32-bit floats only from smaller spreads.
-//? if storage_fp16
+#if STORAGE_FP16
 float shortfallOfMean(float size, float least) { return max(1.0 - size - 1.0 / 2048.0, least); }
-//? else
+#else
 float shortfallOfMean(float size, float least) {
   const float rounding = 1.8e-7;
   float beyond = 1.0 - size - least;
   return beyond <= rounding ? least : least + beyond - rounding * (rounding / beyond);
 }
-//? end
+#endif
 
 // A part of the footprint: (w r, w), and w times the mean of 1 - |r| of its texels. 1 - |r| of the mean is never below
 // that mean, because |mean r| <= mean |r|, whatever the rounding.
@@ -23,18 +23,28 @@ struct Part {
 
 // `guard`: the value of the map for `least` if it stores one; otherwise `least` is that of a facet in every texel.
 Part partOf(vec4 r, float guard, float facet_shortfall) {
-  return Part(r, guard);                  //? if roughness_variation
-  return Part(r, r.w * facet_shortfall);  //? else
+#if ROUGHNESS_VARIATION
+  return Part(r, guard);
+#else
+  return Part(r, r.w * facet_shortfall);
+#endif
 }
 
-Footprint mapFootprint(Footprints f) { return f.surface; }    //? if surface_coordinates
-Footprint mapFootprint(Footprints f) { return f.normal; }     //? elif normal_variation
-Footprint mapFootprint(Footprints f) { return f.roughness; }  //? else
+#if SURFACE_COORDINATES
+Footprint mapFootprint(Footprints f) { return f.surface; }
+#elif NORMAL_VARIATION
+Footprint mapFootprint(Footprints f) { return f.normal; }
+#else
+Footprint mapFootprint(Footprints f) { return f.roughness; }
+#endif
 
 // With surface coordinates the map is in camera space, unless no atlas could be made for it.
 vec3 axisOf(vec3 r) {
-  return xu_vmf_in_camera_space > 0.5 ? r * tangent_to_camera : r;  //? if surface_coordinates
-  return r;                                                         //? else
+#if SURFACE_COORDINATES
+  return xu_vmf_in_camera_space > 0.5 ? r * tangent_to_camera : r;
+#else
+  return r;
+#endif
 }
 
 // The lobe of a part that counts with `weight`, unless the part covers next to nothing.
@@ -51,18 +61,18 @@ StoredLobe lobeOfPart(FacetsLobe own, Part part, float weight) {
   float size = length(r);
   float q = lobeShortfall(size, part.least / part.r.w);
   vec3 mean = size < 1e-6 ? vec3(0.0, 0.0, 1.0) : axisOf(r / size);
-//? if variant_algorithm1
+#if VARIANT_ALGORITHM1
   // Line 24 takes the vector as fetched, which is w times the mean, and line 11 adds the lobe whole.
   float fetched_q = lobeShortfall(length(part.r.xyz), part.least + 1.0 - part.r.w);
   return storedLobe(own, mean, q, fetched_q, share, weight);
-//? else
+#else
   return storedLobe(own, mean, q, q, share, share);
-//? end
+#endif
 }
 
-//? if sampling_frame and not j_1
+#if SAMPLING_FRAME && !J_1
 // Algorithm 1: splits the parts of the hemisphere until one lobe serves each.
-//? include xu_vmf_cells.glsl
+#include "xu_vmf_cells.glsl"
 
 // A lookup of a part of one of the facets' lobes. The finest level of parts is not stored. Below level 1 the texels of
 // the whole hemisphere are used, each for the part that contains its lobe.
@@ -105,10 +115,10 @@ Probe probeAt(int own, vec2 uv, float level) {
     p.texel[i] *= share[i];
   }
   p.guard = vec4(0.0);
-//? if storage_fp16 and roughness_variation
+#if STORAGE_FP16 && ROUGHNESS_VARIATION
   p.guard = share * textureGather(xu_vmf_whole_guard, middle, 0);
   countLookups(1);
-//? end
+#endif
   return p;
 }
 
@@ -120,10 +130,10 @@ Part partAt(Probe p, float facet_shortfall, int part) {
   vec4 r = share * textureLod(xu_vmf_parts, at, p.level - 1.0);
   countLookups(1);
   float guard = 0.0;
-//? if storage_fp16 and roughness_variation
+#if STORAGE_FP16 && ROUGHNESS_VARIATION
   guard = share * textureLod(xu_vmf_parts_guard, at, p.level - 1.0).r;
   countLookups(1);
-//? end
+#endif
   int beyond = beyondPart(part);
   for (int i = 0; i < 4; ++i) {
     bool holds = part <= p.part[i] && p.part[i] < beyond;
@@ -140,13 +150,15 @@ struct Walk {
   float facet_shortfall;
   int next;  // next part; the walk ends at `parts`
   int parts;
-  Probe probe;  //? if not several_probes
-//? if j_adaptive and (thresholds_blended or variant_algorithm1)
+#if !SEVERAL_PROBES
+  Probe probe;
+#endif
+#if J_ADAPTIVE && (THRESHOLDS_BLENDED || VARIANT_ALGORITHM1)
   float coarse_weight, cell_weight;  // what the hemisphere leaves to coarse parts, and a coarse part to its cells
-//? end
+#endif
 };
 
-//? if several_probes
+#if SEVERAL_PROBES
 Part partUnder(Walk walk, int part) {
   Footprint f = walk.footprint;
   Probes p = probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f);
@@ -160,19 +172,25 @@ Part partUnder(Walk walk, int part) {
   } while (++i < p.count);
   return Part(r, least);
 }
-//? end
+#endif
 
-//? if j_adaptive
+#if J_ADAPTIVE
 // How far one lobe serves a part, from 0 to 1. Algorithm 1 steps at the threshold. Cells and empty parts are not split.
 float unityOf(Part part, int i) {
   if (beyondPart(i) == i + 1 || part.r.w < least_share) return 1.0;
-  float size = length(part.r.xyz);             //? if variant_algorithm1
-  float size = length(part.r.xyz) / part.r.w;  //? else
+#if VARIANT_ALGORITHM1
+  float size = length(part.r.xyz);
+#else
+  float size = length(part.r.xyz) / part.r.w;
+#endif
   float threshold = i == 0 ? option_eps0 : option_eps1;
-  return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);  //? if thresholds_blended
-  return size > threshold ? 1.0 : 0.0;                      //? else
+#if THRESHOLDS_BLENDED
+  return clamp((size - threshold) / 0.02 + 1.0, 0.0, 1.0);
+#else
+  return size > threshold ? 1.0 : 0.0;
+#endif
 }
-//? end
+#endif
 
 Walk walkOver(Footprint f, int own, float facet_shortfall) {
   Walk walk;
@@ -181,15 +199,17 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) {
   walk.facet_shortfall = facet_shortfall;
   walk.next = 0;
   walk.parts = textureSize(xu_vmf_parts, 0).z / facetsLobeCount();
-  walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);  //? if not several_probes
-//? if j_adaptive and (thresholds_blended or variant_algorithm1)
+#if !SEVERAL_PROBES
+  walk.probe = probeAt(own, f.uv, probesOf(vec2(textureSize(xu_vmf_whole, 0).xy), f).level);
+#endif
+#if J_ADAPTIVE && (THRESHOLDS_BLENDED || VARIANT_ALGORITHM1)
   walk.coarse_weight = 0.0;
   walk.cell_weight = 0.0;
-//? end
+#endif
   return walk;
 }
 
-//? if j_adaptive and variant_algorithm1
+#if J_ADAPTIVE && VARIANT_ALGORITHM1
 // Lines 6 to 16 as printed: every coarse part that is not concentrated adds the first four cells (lines 9 and 10), not
 // its own two, and the other four cells are never read. The walk visits these cells once, after the coarse parts; their
 // weight is the number of coarse parts that add them.
@@ -208,34 +228,37 @@ void printedStep(inout Walk walk, int i, inout float weight) {
     walk.next = i == 3 ? 5 : i == 6 ? walk.parts : i + 1;
   }
 }
-//? end
+#endif
 
 Part nextPart(inout Walk walk, out float weight) {
   int i = walk.next;
-  Part part = partUnder(walk, i);                           //? if several_probes
-  Part part = partAt(walk.probe, walk.facet_shortfall, i);  //? else
+#if SEVERAL_PROBES
+  Part part = partUnder(walk, i);
+#else
+  Part part = partAt(walk.probe, walk.facet_shortfall, i);
+#endif
   weight = 1.0;
   ++walk.next;
-//? if j_adaptive
+#if J_ADAPTIVE
   weight = unityOf(part, i);
   int beyond = beyondPart(i);
-//? end
-//? if j_adaptive and variant_algorithm1
+#endif
+#if J_ADAPTIVE && VARIANT_ALGORITHM1
   printedStep(walk, i, weight);
-//? elif j_adaptive
+#elif J_ADAPTIVE
   if (weight >= 1.0) walk.next = beyond;
-//? end
-//? if j_adaptive and thresholds_blended and not variant_algorithm1
+#endif
+#if J_ADAPTIVE && THRESHOLDS_BLENDED && !VARIANT_ALGORITHM1
   float unity = weight;
   bool is_cell = beyond == i + 1;
   float whole = i == 0 ? 1.0 : is_cell ? walk.cell_weight : walk.coarse_weight;
   weight = whole * unity;
   if (!is_cell) walk.cell_weight = whole * (1.0 - unity);
   if (i == 0) walk.coarse_weight = 1.0 - unity;
-//? end
+#endif
   return part;
 }
-//? else
+#else
 // A single part: a sample of the finest level reads one texel or a blend of texels.
 struct Walk {
   Footprint footprint;
@@ -248,9 +271,11 @@ Walk walkOver(Footprint f, int own, float facet_shortfall) { return Walk(f, own,
 
 Part nextPart(inout Walk walk, out float weight) {
   float guard = 0.0;
-  guard = fetch(xu_vmf_whole_guard, 0, walk.footprint).r;  //? if storage_fp16 and roughness_variation
+#if STORAGE_FP16 && ROUGHNESS_VARIATION
+  guard = fetch(xu_vmf_whole_guard, 0, walk.footprint).r;
+#endif
   weight = 1.0;
   ++walk.next;
   return partOf(fetch(xu_vmf_whole, walk.own, walk.footprint), guard, walk.facet_shortfall);
 }
-//? end
+#endif

@@ -1,14 +1,16 @@
 // Second pass of the frame build: from the finest level, with one lobe per texel, to the next level of some parts. The
 // finest level of parts is not stored, because the direction of a texel's lobe gives its part.
-//? include xu_vmf_cells.glsl
-//? include xu_vmf_storing.glsl
+#include "xu_vmf_cells.glsl"
+#include "xu_vmf_storing.glsl"
 
 layout(location = 0) out vec4 part[layer_count];
 
 uniform int source;      // the layer to split
 uniform int first_part;  // the first drawn part
 layout(binding = 0) uniform sampler2DArray finest;
-layout(binding = 1) uniform sampler2DArray values;  //? if guard
+#if GUARD
+layout(binding = 1) uniform sampler2DArray values;
+#endif
 
 void main() {
   vec4 sums[layer_count];
@@ -25,7 +27,9 @@ void main() {
       if (r.w == 0.0) continue;
       int own = partOfCell(cellOf(r.xyz));
       vec4 value = across[x] * down[y] * r;
-      value = across[x] * down[y] * texelFetch(values, texel, 0);  //? if guard
+#if GUARD
+      value = across[x] * down[y] * texelFetch(values, texel, 0);
+#endif
       for (int i = 0; i < layer_count; ++i) {
         if (!isSumOfNext(i, layer_count)) sums[i] += own == first_part + i ? value : vec4(0.0);
       }

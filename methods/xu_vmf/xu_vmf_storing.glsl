@@ -1,13 +1,19 @@
 // Rounds values for a map of half floats. Some drivers truncate instead, which would shorten r at every level.
 vec4 stored(vec4 value) {
-  return vec4(unpackHalf2x16(packHalf2x16(value.xy)), unpackHalf2x16(packHalf2x16(value.zw)));  //? if storage_fp16
-  return value;                                                                                 //? else
+#if STORAGE_FP16
+  return vec4(unpackHalf2x16(packHalf2x16(value.xy)), unpackHalf2x16(packHalf2x16(value.zw)));
+#else
+  return value;
+#endif
 }
 
 // Whether a drawn layer is a coarse part of `adaptive`'s tree: the sum, without lookups, of the next two.
 bool isSumOfNext(int i, int layers) {
-  return layers > 1 && i % 3 == 0;  //? if j_adaptive
-  return false;                     //? else
+#if J_ADAPTIVE
+  return layers > 1 && i % 3 == 0;
+#else
+  return false;
+#endif
 }
 
 // The shares of finer texels in a coarse texel, which is the exact mean of its area for any size: two texels along an

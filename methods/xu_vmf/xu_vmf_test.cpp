@@ -28,7 +28,7 @@ std::vector<glm::vec4> converted(const std::string& body, const ProbeInputs& inp
   gl::api().BindTextureUnit(0, table.texture->name());
   gl::api().BindSampler(0, sampler.name());
   ShaderModule conversions = xu_vmf_method().shader;
-  conversions.text = "//? include xu_vmf_conversion.glsl\n";
+  conversions.text = "#include \"xu_vmf_conversion.glsl\"\n";
   return evaluate_glsl("layout(binding = 0) uniform sampler2D table;\n" + shared_functions(flags, conversions), body,
                        inputs);
 }

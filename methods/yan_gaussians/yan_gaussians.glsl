@@ -1,5 +1,5 @@
 // Sums Gaussian elements, one per texel, under a Gaussian footprint. Supersampled images draw the facet of one texel.
-//? if normal_variation
+#if NORMAL_VARIATION
 // The footprint on the stored map, which appends the mirror image of a map that does not repeat.
 Footprint folded(Footprint f) {
   vec2 share = yan_wrap[0];
@@ -9,7 +9,7 @@ Footprint folded(Footprint f) {
   return f;
 }
 
-//? end
+#endif
 // The reflectance of an element, from mean and covariance of its normals on the disc and the roughness of each.
 
 // The value of each element: its reflectance without the Fresnel term, or its density of normals at h.
@@ -27,7 +27,7 @@ vec3 onSphere(vec2 disc) {
   return vec3(disc, sqrt(1.0 - squared));
 }
 
-//? if roughness_intrinsic
+#if ROUGHNESS_INTRINSIC
 const vec3 no_spread = vec3(0.0);
 
 // A Gaussian on the disc (Yan 2016). Its covariance is that of the element's normals, (xx, xy, yy), plus sigma_r^2
@@ -50,7 +50,7 @@ float elementValue(vec3 normal, vec3 spread, Query q) {
 
 // The largest distance on the disc between h and a normal whose roughness reaches h.
 float normalReach() { return option_cutoff * option_sigma_r; }
-//? else
+#else
 const float no_spread = 0.0;
 
 // The base lobe about the mean normal, widened in all directions by the mean of the element's variances on the sphere.
@@ -62,32 +62,35 @@ float elementValue(vec3 normal, float variance, Query q) {
 // The largest chord between h and the normal of a facet whose lobe has exp(-cutoff^2 / 2) of its peak at h.
 float normalReach() {
   float most = 0.5 * option_cutoff * option_cutoff;
-//? if multi_lobe or distribution_ggx
+#if MULTI_LOBE || DISTRIBUTION_GGX
   return 4.0;  // no cut-off preserves the tail, and lobes may have any axis
-//? elif distribution_blinn_phong
+#elif DISTRIBUTION_BLINN_PHONG
   return sqrt(2.0 * (1.0 - exp(-most / yan_lobe)));
-//? elif distribution_vmf
+#elif DISTRIBUTION_VMF
   return sqrt(min(2.0 * most / yan_lobe, 4.0));
-//? else
+#else
   // exp(-t / alpha^2) (1 + t)^2 with t the squared tangent: one step of the fixed point t = alpha^2 (most + 2 log(1 +
   // t)), from a start above the solution.
   float a2 = yan_lobe * yan_lobe;
   float t = a2 * (most + 2.0 * log(1.0 + a2 * (most + 8.0)));
   return sqrt(2.0 * (1.0 - inversesqrt(1.0 + t)));
-//? end
+#endif
 }
-//? end
-//? if normal_variation and sampling_frame
-//? include yan_sum.glsl
-//? else
+#endif
+#if NORMAL_VARIATION && SAMPLING_FRAME
+#include "yan_sum.glsl"
+#else
 // The facet of one texel, for samples of a supersampled image and for surfaces without a normal map.
 struct Effective {
   vec3 normal;
 };
 
 Effective effective(Footprints f) {
-  return Effective(normalize(fetchFinest(mean_normal, folded(f.normal)).xyz));  //? if normal_variation
-  return Effective(vec3(0.0, 0.0, 1.0));                                        //? else
+#if NORMAL_VARIATION
+  return Effective(normalize(fetchFinest(mean_normal, folded(f.normal)).xyz));
+#else
+  return Effective(vec3(0.0, 0.0, 1.0));
+#endif
 }
 
 float ndf(Effective e, vec3 h) { return elementValue(e.normal, no_spread, Query(false, h, h, h)); }
@@ -97,6 +100,6 @@ float reflectedDensity(Effective e, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) { return e.normal; }
-//? end
+#endif
 
-//? include density_module.glsl
+#include "density_module.glsl"

@@ -84,7 +84,7 @@ uint texelAt(uint place) {
   return bytes.x | bytes.y << 8u | bytes.z << 16u | bytes.w << 24u;
 }
 
-//? if jacobian_central
+#if JACOBIAN_CENTRAL
 // The covariance of an element's normals on the disc, by the Jacobian `slopes`: n_x by u and v, n_y by u and v.
 vec3 spreadOnDisc(Effective e, vec4 slopes) {
   vec2 by_x = vec2(dot(e.within.xy, slopes.xy), dot(e.within.yz, slopes.xy));
@@ -104,23 +104,26 @@ float spreadOnSphere(Effective e, vec2 disc, vec4 slopes) {
   return min(0.5 * (spread.x + spread.z + quadratic(e.within, rise)), 0.25 * height * height);
 }
 
-//? end
+#endif
 // The reflectance of the element of a texel at `d` from the footprint's centre. Given the footprint, its positions have
 // the mean `shift` from its own and the covariance `within`, and its normals follow by the Jacobian.
 float valueOfTexel(Effective e, ivec2 at, vec2 d, Query q) {
   vec3 normal = normalize(texelFetch(mean_normal, at, 0).xyz);
   countLookups(1);
-//? if jacobian_central
+#if JACOBIAN_CENTRAL
   vec4 slopes = texelFetch(yan_jacobian, at, 0);
   countLookups(1);
   vec2 shift = e.wide ? vec2(0.0) : seed_variance * vec2(dot(e.inverse_sum.xy, d), dot(e.inverse_sum.yz, d));
-  vec3 spread = spreadOnDisc(e, slopes);                //? if roughness_intrinsic
-  float spread = spreadOnSphere(e, normal.xy, slopes);  //? else
+#if ROUGHNESS_INTRINSIC
+  vec3 spread = spreadOnDisc(e, slopes);
+#else
+  float spread = spreadOnSphere(e, normal.xy, slopes);
+#endif
   if (slopes != vec4(0.0)) normal = onSphere(normal.xy + vec2(dot(slopes.xy, shift), dot(slopes.zw, shift)));
   return elementValue(normal, spread, q);
-//? else
+#else
   return elementValue(normal, no_spread, q);
-//? end
+#endif
 }
 
 // The contribution of an element: its weight under the footprint times the reflectance of its normals there.

@@ -294,14 +294,7 @@ Prefiltered baked(const Head& head, const Material& material, const Options& opt
   return out;
 }
 
-// footprint_slopes.glsl serves these methods and `leadr`, which differ in this texture.
-ShaderFlags flags_of(const Head& head) {
-  const bool slopes = std::ranges::any_of(head.reads, [](const Read& r) { return r.input->name == "slope_moments"; });
-  return slopes ? ShaderFlags{{"with_mean_normal", true}} : ShaderFlags{};
-}
-
 Method made(Head head, ShaderModule module) {
-  module.flags = flags_of(head);
   MethodInfo info = head.info;
   return {.info = std::move(info),
           .precompute = [head = std::make_shared<const Head>(std::move(head))](

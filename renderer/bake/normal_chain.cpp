@@ -82,6 +82,10 @@ RoughnessMean roughness_mean(const Options& options) {
   return options.word("roughness_mean") == "concentration" ? RoughnessMean::concentration : RoughnessMean::variance;
 }
 
+std::string stored_lobe_name(RoughnessMean mean) {
+  return mean == RoughnessMean::concentration ? "lobe_concentration" : "lobe_variance";
+}
+
 float stored_roughness(float variance, RoughnessMean mean) {
   return mean == RoughnessMean::concentration ? stored_lobe_variance / variance : variance / stored_lobe_variance;
 }
@@ -92,8 +96,8 @@ Prefiltered bake_lobe_variance(const Material& material, Storage storage, const 
   if (!has(effects, Effect::roughness_variation)) return out;
   Image finest = lobe_variance_map(material);
   for (float& v : finest.texels) v = stored_roughness(v, mean);
-  out.textures.push_back(make_texture("lobe_variance", mip_chain(finest), is_coarse(storage) ? Storage::fp16 : storage,
-                                      roughness_coordinates(material)));
+  out.textures.push_back(make_texture(stored_lobe_name(mean), mip_chain(finest),
+                                      is_coarse(storage) ? Storage::fp16 : storage, roughness_coordinates(material)));
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Bakes that several methods share: mean normals, the base lobe's width, and their storage.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "renderer/bake/prefiltered.hpp"
@@ -46,7 +47,10 @@ enum class RoughnessMean {
 /// What a texel stores of a slope variance: it in units of stored_lobe_variance, or the reciprocal of that.
 [[nodiscard]] float stored_roughness(float variance, RoughnessMean mean);
 
-/// The texture `lobe_variance` of lobe_variance.glsl; none if the roughness does not vary. Values are
+/// The name of the texture of lobe_variance.glsl that stores them: `lobe_variance` or `lobe_concentration`.
+[[nodiscard]] std::string stored_lobe_name(RoughnessMean mean);
+
+/// The texture of that name; none if the roughness does not vary. Values are
 /// variances in units of stored_lobe_variance, or the reciprocals of that, so that texels blend correctly, and half
 /// floats represent the range from a mirror's 1e-6 to 1000 for an exponent of 0.001. `unorm8` also uses half floats,
 /// because bytes would round every lobe below 1/255 to a mirror.

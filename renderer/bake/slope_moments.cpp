@@ -17,7 +17,7 @@
 namespace footprint {
 namespace {
 
-constexpr double default_steepest = 3.0;  // 71.6 degrees; methods/lean/README.md explains the choice
+constexpr double default_steepest = 3.0;  // 71.6 degrees: the README of the method has the reason
 constexpr int moment_channels = 5;
 constexpr std::size_t weight_channel = 5;
 

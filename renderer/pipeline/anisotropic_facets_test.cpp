@@ -41,7 +41,7 @@ std::string stretched_functions(NormalDistribution distribution, GeometryTerm ge
   const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"));
   return fmt::format("const vec4 lobe_cutoff = vec4(0.0);\nvec4 anisotropy() {{ return vec4({}, {}, {}, {}); }}\n",
                      stretch.along, stretch.across, std::cos(stretch.rotation), std::sin(stretch.rotation)) +
-         shared_functions(flags, {"test.glsl", "//? include lobe_sampling.glsl\n"});
+         shared_functions(flags, {"test.glsl", "#include \"lobe_sampling.glsl\"\n"});
 }
 
 // A direction in the frame of a facet that the shortest rotation from z brought to n.

@@ -326,7 +326,7 @@ TEST(AreaLights, PointsAreEvenOverTheArea) {
 // Pearson's statistic of independent draws in 64 cells of equal area: 63 degrees of freedom, 99.9% below 103.4.
 TEST(AreaLights, SamplerIsEvenOverTheArea) {
   const ShaderFlags flags = shader_flags({}, Options({}, {}, "test"));
-  const std::string functions = shared_functions(flags, {"test.glsl", "//? include area_points.glsl\n"});
+  const std::string functions = shared_functions(flags, {"test.glsl", "#include \"area_points.glsl\"\n"});
   constexpr int draws = 16384;
   for (const bool rectangle : {true, false}) {
     std::vector<std::array<glm::vec4, 3>> inputs;

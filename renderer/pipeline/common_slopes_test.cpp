@@ -27,10 +27,9 @@ TEST(CommonSlopes, GlslRecoversTheSameCovariance) {
                       glm::vec4(0)});
   }
   ShaderVariant variant;
-  const Options options({slope_roughness_option(), word_option("variant", {"lean", "clean"}, "")}, {}, "test");
   const auto out =
-      evaluate_glsl("vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, options),
-                                                             {"test.glsl", "//? include common_slopes.glsl\n"}),
+      evaluate_glsl("vec4 lobe_cutoff;\n" +
+                        shared_functions(shader_flags(variant), {"test.glsl", "#include \"common_slopes.glsl\"\n"}),
                     "mat2 s = slopeCovariance(a.xy, b.xyz); return vec4(s[0], s[1]);", inputs);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto& [b, m, unused] = inputs[i];

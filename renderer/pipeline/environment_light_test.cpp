@@ -36,10 +36,10 @@ std::string light_functions_of(NormalDistribution distribution, GeometryTerm geo
       "layout(binding = 1) uniform sampler2D environment_irradiance;\n"
       "layout(binding = 2) uniform sampler2DArray environment_lobes;\n"
       "struct Effective { Facets facets; };\n"
-      "//? include facet_normal_lobes.glsl\n"
+      "#include \"facet_normal_lobes.glsl\"\n"
       "vec3 meanNormal(Effective e) { return e.facets.normal; }\n"
-      "//? include environment_stack.glsl\n"
-      "//? include lobe_sampling.glsl\n";
+      "#include \"environment_stack.glsl\"\n"
+      "#include \"lobe_sampling.glsl\"\n";
   return shared_functions(flags, {"test.glsl", module});
 }
 

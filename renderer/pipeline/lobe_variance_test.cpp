@@ -42,11 +42,10 @@ double variance_at(const Material& material, Storage storage, float u, Roughness
   ShaderVariant variant;
   variant.brdf = material.brdf;
   variant.effects = varying_roughness();
-  const OptionSpec option = roughness_mean_option();
-  const std::string word = mean == RoughnessMean::concentration ? "concentration" : "variance";
-  const ShaderFlags flags = shader_flags(variant, Options({option}, {{option.name, word}}, "test"), baked);
-  const std::string text = "layout(binding = 0) uniform sampler2D lobe_variance;\nvec4 lobe_cutoff;\n" +
-                           shared_functions(flags, {"test.glsl", "//? include lobe_variance.glsl\n"});
+  const ShaderFlags flags = shader_flags(variant, Options({}, {}, "test"), baked);
+  const std::string text = "layout(binding = 0) uniform sampler2D " + stored_lobe_name(mean) +
+                           ";\nvec4 lobe_cutoff;\n" +
+                           shared_functions(flags, {"test.glsl", "#include \"lobe_variance.glsl\"\n"});
   const std::array<std::array<glm::vec4, 3>, 1> inputs{{{glm::vec4(u), glm::vec4(0), glm::vec4(0)}}};
   const auto out = evaluate_glsl(text,
                                  "Footprint p = Footprint(vec2(a.x, 0.5), vec2(0.0), vec2(0.0));\n"

@@ -88,7 +88,6 @@ constexpr auto rows = std::to_array<FlagRow>({
     {"filter_stochastic_gaussian", is_filter<FootprintFilterKind::stochastic_gaussian>},
     {"filter_stochastic_trilinear", is_filter<FootprintFilterKind::stochastic_trilinear>},
     {"several_probes", averages_probes},
-    {"roughness_mean_concentration", [](const Variant&) { return false; }},  // of methods without that option
     {"counting", [](const Variant& v) { return v.counting != Counting::none; }},
     {"counting_trips", [](const Variant& v) { return v.counting == Counting::trips; }},
     {"fixed_trips", [](const Variant& v) { return v.fixed_trips.has_value(); }},
@@ -123,6 +122,23 @@ constexpr auto rows = std::to_array<FlagRow>({
      [](const Variant& v) { return has(v.effects, Effect::environment_light) && has(v.effects, Effect::cast_shadow); }},
 });
 
+bool has_mean_normals(const PrefilteredTexture& t) { return t.name == "mean_normal" || t.name == "mean_layer"; }
+
+struct TextureFlagRow {
+  std::string_view name;
+  bool (*is_on)(const PrefilteredTexture&);
+};
+
+// On if one of the method's textures is such a texture: shared texts read textures by what these store.
+constexpr auto texture_rows = std::to_array<TextureFlagRow>({
+    {"texture_arrays", [](const PrefilteredTexture& t) { return t.layers > 0; }},
+    {"texel_lookups", [](const PrefilteredTexture& t) { return t.filter == TextureFilter::nearest; }},
+    {"half_normals", [](const PrefilteredTexture& t) { return has_mean_normals(t) && t.storage == Storage::fp16; }},
+    {"coarse_normals", [](const PrefilteredTexture& t) { return has_mean_normals(t) && is_coarse(t.storage); }},
+    {"two_channel_normals", [](const PrefilteredTexture& t) { return has_mean_normals(t) && t.channels == 2; }},
+    {"lobe_concentration", [](const PrefilteredTexture& t) { return t.name == "lobe_concentration"; }},
+});
+
 }  // namespace
 
 ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, const Prefiltered& prefiltered) {
@@ -130,14 +146,12 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
   for (const std::string& name : effect_names(EffectSet{}.set())) flags.emplace(name, false);
   for (const std::string& name : effect_names(variant.effects)) flags[name] = true;
   for (const FlagRow& row : rows) flags.emplace(row.name, row.is_on(variant));
-  flags.emplace("texture_arrays",
-                std::ranges::any_of(prefiltered.textures, [](const auto& t) { return t.layers > 0; }));
-  flags.emplace("texel_lookups", std::ranges::any_of(prefiltered.textures,
-                                                     [](const auto& t) { return t.filter == TextureFilter::nearest; }));
+  for (const TextureFlagRow& row : texture_rows)
+    flags.emplace(row.name, std::ranges::any_of(prefiltered.textures, row.is_on));
   for (const OptionSpec& option : options.specs()) {
     for (const std::string& choice : option.choices) {
       const std::string flag = option.shader_name() + "_" + choice;
-      if (flags.contains(flag) && flag != "roughness_mean_concentration") {
+      if (flags.contains(flag)) {
         throw Error(ErrorKind::usage, "option " + option.name,
                     "its choice `" + choice + "` has the flag `" + flag + "`, which shaders have already",
                     "name the option otherwise");
@@ -145,8 +159,6 @@ ShaderFlags shader_flags(const ShaderVariant& variant, const Options& options, c
       flags[flag] = options.word(option.name) == choice;
     }
   }
-  // Shared texts know these storages, of which most methods offer none.
-  for (const char* name : {"storage_bc1", "storage_bc5"}) flags.emplace(name, false);
   return flags;
 }
 

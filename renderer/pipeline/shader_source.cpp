@@ -11,6 +11,7 @@
 #include "renderer/bake/material_maps.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/pipeline/gpu_environment.hpp"
+#include "renderer/pipeline/shader_contract.hpp"
 #include "renderer/pipeline/shadow_maps.hpp"
 
 namespace footprint {
@@ -143,6 +144,7 @@ ShaderText bare_text(const ShaderVariant& variant, const ShaderModule& module, c
   text.include("bare_material.glsl");
   add_shared_functions(text, flags, shade_calls(variant));
   text.include("bare_module.glsl");
+  require_definitions(text, module.file);
   return text;
 }
 
@@ -178,6 +180,7 @@ ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits&
   fragment.add(units.declarations() + light_capacities(variant) + fixed_trips(variant.fixed_trips, variant.effects));
   fragment.include("surface_lights.glsl");
   add_method_pass(fragment, variant, flags, options, prefiltered, "surface_fragment.glsl");
+  require_definitions(fragment, module.file);
   return {shared_stage("surface_vertex.glsl", flags), std::move(fragment)};
 }
 
@@ -199,6 +202,7 @@ ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, 
   ShaderText text = module_text(flags, module);
   text.add(TextureUnits(variant.effects, prefiltered).declarations());
   add_method_pass(text, variant, flags, options, prefiltered, "ndf_fragment.glsl");
+  require_definitions(text, module.file);
   return text;
 }
 
@@ -211,6 +215,7 @@ ShaderText frame_build_shader(const ShaderVariant& variant, const ShaderModule& 
   add_shared_functions(text, flags);
   text.add(constants);
   text.include_module();
+  require_definitions(text, pass.file);
   return text;
 }
 

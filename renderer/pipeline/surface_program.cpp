@@ -441,7 +441,7 @@ void take_built_maps(const gl::Context& context, const Scene& scene, const Effec
   if (gpu.looks_from_view()) {
     throw Error(ErrorKind::usage, fmt::format("method {}", baked.spec.text),
                 "builds its maps for each view, so they cannot be written to files",
-                "take options whose maps serve every view (of xu_vmf space=tangent), or another method");
+                "take options whose maps serve every view, or another method");
   }
   gpu.rebuild({.size = glm::ivec2(1), .camera = scene.camera});
   for (std::size_t i = 0; i < baked.materials.size(); ++i) take(gpu.textures(i), baked.materials[i]);

@@ -19,7 +19,7 @@ using Inputs = std::vector<std::array<glm::vec4, 3>>;
 
 std::vector<glm::vec4> vmf(const std::string& body, const Inputs& inputs) {
   const ShaderFlags flags = shader_flags({}, Options({}, {}, "test"));
-  return evaluate_glsl(shared_functions(flags, {"test.glsl", "//? include vmf.glsl\n"}), body, inputs);
+  return evaluate_glsl(shared_functions(flags, {"test.glsl", "#include \"vmf.glsl\"\n"}), body, inputs);
 }
 
 // From nearly even to sharper than any lobe; both sides of each threshold are among them.

@@ -1,10 +1,10 @@
 // Facets whose lobe is wider along one direction of their tangent plane. The direction turns with the facet's normal, by
 // the shortest rotation from the surface's (docs/explanation/base-brdf.md).
 
-//? include anisotropic_widths.glsl
+#include "anisotropic_widths.glsl"
 
 // Alpha along and across the direction, of the base lobe whose round mean has the parameter `lobe`; and that direction.
-//? if anisotropy_variation
+#if ANISOTROPY_VARIATION
 // Of what is shaded: (along^2 - across^2) / (along^2 + across^2) times the direction's cosine and sine of twice its angle
 // (stretch_of in renderer/lobes/lobe.hpp). Whoever calls `effective` sets it first.
 vec2 stretch = vec2(0.0);
@@ -17,9 +17,9 @@ vec2 facetDirection() {
   if (r < 1e-12) return vec2(1.0, 0.0);
   return normalize(stretch.x >= 0.0 ? vec2(r + stretch.x, stretch.y) : vec2(stretch.y, r - stretch.x));
 }
-//? else
+#else
 vec2 facetDirection() { return anisotropy().zw; }
-//? if roughness_variation
+#if ROUGHNESS_VARIATION
 // With q the squared strength and p = 1 - q, along = q + p across, and along^2 + across^2 = 2 lobe^2.
 vec2 facetAlphas(float lobe) {
   float q = lobe_cutoff.w;
@@ -28,10 +28,10 @@ vec2 facetAlphas(float lobe) {
   float across = max((sqrt(max(2.0 * norm * lobe * lobe - q * q, 0.0)) - p * q) / norm, smallest_alpha);
   return vec2(q + p * across, across);
 }
-//? else
+#else
 vec2 facetAlphas(float lobe) { return anisotropy().xy; }
-//? end
-//? end
+#endif
+#endif
 
 // The symmetric matrix with `along` and `across` in the axes of the direction.
 mat2 inFacetAxes(float along, float across) { return inAxes(along, across, facetDirection()); }

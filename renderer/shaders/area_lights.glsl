@@ -8,13 +8,17 @@ struct AreaLight {
   vec4 share;            // x: of each of its points
 };
 layout(std140, binding = 7) uniform AreaLights { AreaLight area_lights[area_light_capacity]; };
-uniform int area_light_count;  //? if not fixed_trips
+#if !FIXED_TRIPS
+uniform int area_light_count;
+#endif
 
-//? if area_points
+#if AREA_POINTS
 // Points of lights, each with an equal share of its light's area; w: the number of the light.
 layout(std140, binding = 8) uniform AreaPoints { vec4 area_points[area_point_capacity]; };
-uniform int area_point_count;  //? if not fixed_trips
-//? end
+#if !FIXED_TRIPS
+uniform int area_point_count;
+#endif
+#endif
 
 // Squared distance over the cosine at the light, to a point of it that is `d` away: density over solid angle of points
 // that are even over the area, times the area. 0: the light does not shine there.

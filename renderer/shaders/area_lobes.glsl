@@ -62,11 +62,11 @@ AreaSums areaSums(AreaOutline o, vec4 planes[3], mat3 to_cosine, bool has_wider)
   AreaSums sums = AreaSums(vec3(0.0), vec3(0.0));
   vec3 leaves[3], enters[3];
   bvec3 crossed = bvec3(false);
-//? if fixed_trips
+#if FIXED_TRIPS
   const int corners = disk_corners;  // of every light: estimates count rounds of loops of constant length
-//? else
+#else
   int corners = o.rectangle ? 4 : disk_corners;
-//? end
+#endif
   vec3 corner = areaCorner(o, corners - 1);
   int i = 0;
   do {
@@ -117,8 +117,11 @@ vec4 ownPlane(vec3 n, vec4 a, vec4 b) {
 
 // The plane of the surface, below which light does not count.
 vec4 surfacePlane() {
-  return no_plane;                  //? if horizon_open
-  return vec4(0.0, 0.0, 1.0, 0.0);  //? else
+#if HORIZON_OPEN
+  return no_plane;
+#else
+  return vec4(0.0, 0.0, 1.0, 0.0);
+#endif
 }
 
 // A fit from the table, about a lobe in the tangent frame.
@@ -133,8 +136,11 @@ struct AreaCosine {
 
 // The alpha of a lobe's row in the table.
 float areaAlpha(NormalLobe lobe) {
-  return clamp(inversesqrt(0.5 * (lobe.sharpness + 1.0)), smallest_alpha, 1.0);  //? if distribution_blinn_phong
-  return clamp(inversesqrt(0.5 * lobe.sharpness), smallest_alpha, 1.0);          //? else
+#if DISTRIBUTION_BLINN_PHONG
+  return clamp(inversesqrt(0.5 * (lobe.sharpness + 1.0)), smallest_alpha, 1.0);
+#else
+  return clamp(inversesqrt(0.5 * lobe.sharpness), smallest_alpha, 1.0);
+#endif
 }
 
 // The share of a transformed cosine above the plane at `angle` from its z.
@@ -153,8 +159,11 @@ AreaCosine areaCosine(NormalLobe lobe, vec3 wo) {
   vec2 size = vec2(textureSize(area_cosines, 0).xy);
   vec2 place = vec2(min(view / widest_view, 1.0), log(alpha / smallest_alpha) / -log(smallest_alpha));
   vec2 uv = (place * (size - 1.0) + 0.5) / size;
-  float layer = lobe.tailed ? 0.0 : 2.0;  //? if distribution_ggx
-  const float layer = 0.0;                //? else
+#if DISTRIBUTION_GGX
+  float layer = lobe.tailed ? 0.0 : 2.0;
+#else
+  const float layer = 0.0;
+#endif
   countLookups(2);
   vec4 shape = textureLod(area_cosines, vec3(uv, layer), 0.0);
   vec4 energies = textureLod(area_cosines, vec3(uv, layer + 1.0), 0.0);
@@ -189,12 +198,15 @@ vec3 areaLobe(Effective e, NormalLobe lobe, AreaOutline o, vec3 f0, vec3 wo) {
   vec3 towards = fit.to_tangent * (sums.first.z < 0.0 ? -sums.first : sums.first);
   float size = length(towards);
   float geometry = size > 0.0 ? areaGeometry(e, lobe, towards / size, wo) : 1.0;
-  vec3 energy = f0 * (fit.energy - fit.schlick) + fit.schlick;  //? if fresnel and fresnel_schlick
-  vec3 energy = f0 * fit.energy;                                //? else
+#if FRESNEL && FRESNEL_SCHLICK
+  vec3 energy = f0 * (fit.energy - fit.schlick) + fit.schlick;
+#else
+  vec3 energy = f0 * fit.energy;
+#endif
   return energy * (lobe.weight * share * geometry);
 }
 
-//? if diffuse
+#if DIFFUSE
 // Lambert's term of facets with a mean normal: the irradiance of a polygon (Lambert 1760) about its direction.
 vec3 areaDiffuse(vec3 mean_normal, AreaOutline o, Surface s, vec3 wo) {
   float size = length(mean_normal);
@@ -206,20 +218,22 @@ vec3 areaDiffuse(vec3 mean_normal, AreaOutline o, Surface s, vec3 wo) {
   vec3 sum = areaSums(o, planes, mat3(1.0), false).first;
   float lit = abs(dot(sum, n)) / (2.0 * pi);
   vec3 reflected = s.albedo * (min(size, 1.0) * lit);
-//? if fresnel
+#if FRESNEL
   float from = length(sum);
   if (from > 0.0) reflected *= transmitted(s.f0, sum * (sign(dot(sum, n)) / from), wo);
-//? end
+#endif
   return reflected;
 }
-//? end
+#endif
 
 vec3 areaLightLit(SurfacePoint p, AreaLight light) {
   vec3 d = light.position_area.xyz - world_position;
   if (dot(d, light.direction_shape.xyz) >= 0.0) return vec3(0.0);
   AreaOutline o = outlineOf(light, p.frame);
   vec3 radiance = vec3(0.0);
-  radiance += areaDiffuse(meanNormal(p.effective), o, p.surface, p.wo);  //? if diffuse
+#if DIFFUSE
+  radiance += areaDiffuse(meanNormal(p.effective), o, p.surface, p.wo);
+#endif
   int count = lobesHere(lobeCount(p.effective));
   int i = 0;
   do {
@@ -229,7 +243,9 @@ vec3 areaLightLit(SurfacePoint p, AreaLight light) {
     radiance += areaLobe(p.effective, lobe, o, p.surface.f0, p.wo);
   } while (++i < count);
   radiance *= light.intensity.rgb / o.area;
-  radiance *= clearOfShadow(light.intensity.w, world_position, seen_facet, -d);  //? if cast_shadow
+#if CAST_SHADOW
+  radiance *= clearOfShadow(light.intensity.w, world_position, seen_facet, -d);
+#endif
   return radiance;
 }
 

@@ -1,7 +1,7 @@
 // Area lights for the reference. Each sample draws points of every light, and directions from the lobe of the module,
 // weighted by the balance heuristic (Veach and Guibas 1995).
 
-//? include area_points.glsl
+#include "area_points.glsl"
 
 // Whether a ray from the pixel meets the light; `d` is the way to the point where it does.
 bool meetsArea(AreaLight light, vec3 direction, out vec3 d) {
@@ -25,10 +25,10 @@ vec3 areaLightIntegral(SurfacePoint p, int number) {
   AreaLight light = area_lights[number];
   vec3 centre = light.position_area.xyz - world_position;
   float seen = 1.0;
-//? if cast_shadow
+#if CAST_SHADOW
   seen = clearOfShadow(light.intensity.w, world_position, seen_facet, -centre);
   if (seen <= 0.0) return vec3(0.0);
-//? end
+#endif
   uvec3 seed = hashed(sample_pixel ^ uvec3(0x9e3779b9u * uint(number + 1)));
   uvec3 lobe_seed = hashed(seed);
   int count = max(directions_per_sample / int(drawn_texels.z), 1);

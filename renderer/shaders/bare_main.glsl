@@ -8,7 +8,9 @@ uniform vec3 lamp;                   // the lamp in world space
 uniform vec3 candela;                // its intensity, linear RGB
 uniform vec3 albedo;                 // diffuse albedo
 uniform vec3 f0;                     // reflectance at normal incidence
-uniform mat3 world_to_camera;        // rotates to x right, y up, z towards the viewer  //? if screen_derivatives
+#if SCREEN_DERIVATIVES
+uniform mat3 world_to_camera;        // rotates to x right, y up, z towards the viewer
+#endif
 layout(location = 0) out vec4 seen;  // linear radiance, and 1
 
 void main() {
@@ -20,11 +22,11 @@ void main() {
   vec3 wo = transpose(to_world) * normalize(eye - at);
   Surface surface = Surface(albedo, f0);
   Footprints f = footprintsAt(uv);
-//? if screen_derivatives
+#if SCREEN_DERIVATIVES
   lookAround(at, eye, to_world, world_to_camera, f);
   vec3 reflected = reflectedTowards(effective(f), surface, wi, wo, vec4(lamp, 1.0));
-//? else
+#else
   vec3 reflected = reflectedTowards(effective(f), surface, wi, wo);
-//? end
+#endif
   seen = vec4(reflected * candela / dot(towards_lamp, towards_lamp), 1.0);
 }

@@ -1,5 +1,7 @@
 // The module of a method for programs of others, with the functions that they call.
-//? module
+#include "method_module.glsl"
+#include "method_contract.glsl"
+
 // The footprint of a map at `uv`. Uses screen derivatives, so all pixels of a quad must call it.
 Footprint footprintAt(vec2 uv) { return Footprint(uv, dFdx(uv), dFdy(uv)); }
 
@@ -10,30 +12,39 @@ Footprints footprintsAt(vec2 uv) {
   all.normal = f;
   all.roughness = f;
   all.base_color = f;
-  all.specular = f;  //? if specular_variation
-  all.layer = f;  //? if normal_layers
-  all.share = f;  //? if material_index
+#if SPECULAR_VARIATION
+  all.specular = f;
+#endif
+#if NORMAL_LAYERS
+  all.layer = f;
+#endif
+#if MATERIAL_INDEX
+  all.share = f;
+#endif
   return all;
 }
 
 vec3 bothTerms(Reflected r) {
-  return r.specular + r.diffuse;  //? if diffuse
-  return r.specular;              //? else
+#if DIFFUSE
+  return r.specular + r.diffuse;
+#else
+  return r.specular;
+#endif
 }
 
 // f * cos of both terms. Multiply it by the light's irradiance on a plane that faces the light.
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo) {
-//? if not horizon_open
+#if !HORIZON_OPEN
   if (wi.z <= 0.0) return vec3(0.0);  // the scene's horizon cuts: nothing of a light below the surface's plane
-//? end
+#endif
   return bothTerms(shade(e, s, wi, wo));
 }
-//? if screen_derivatives
+#if SCREEN_DERIVATIVES
 
 // The pixel in world space, set by `lookAround`.
 vec3 world_position;
 vec3 camera_position;
-//? include neighbour_pixels.glsl
+#include "neighbour_pixels.glsl"
 
 // Fetches neighbouring pixels. Call it before `effective` and in every pixel of a quad.
 // `at` and `eye`: world positions of surface and camera. `frame`: columns tangent, bitangent and normal, orthonormal.
@@ -48,7 +59,9 @@ void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footp
 // The same for a light whose half vector changes over the screen: at position source.xyz (w 1) or in that direction (w
 // 0).
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo, vec4 source) {
-  if (wi.z <= 0.0) return vec3(0.0);  //? if not horizon_open
+#if !HORIZON_OPEN
+  if (wi.z <= 0.0) return vec3(0.0);
+#endif
   return bothTerms(shade(e, s, wi, wo, halfSteps(wi, source, wo)));
 }
-//? end
+#endif

@@ -12,60 +12,80 @@ struct Footprints {
   Footprint normal;
   Footprint roughness;
   Footprint base_color;
-  Footprint specular;  //? if specular_variation
-  Footprint surface;  // on textures that show each point of the surface once  //? if surface_coordinates
-  Footprint layer;  //? if normal_layers
-  Footprint coat_weight;  //? if clear_coat and coat_weight_variation
-  Footprint coat_width;  //? if clear_coat and coat_width_variation
-  Footprint coat_normal;  //? if clear_coat and coat_normal_variation
-  Footprint share;  //? if material_index
-  Footprint emission;  //? if emission_variation
-  Footprint occlusion;  //? if occlusion
-//? if screen_derivatives
+#if SPECULAR_VARIATION
+  Footprint specular;
+#endif
+#if SURFACE_COORDINATES
+  Footprint surface;  // on textures that show each point of the surface once
+#endif
+#if NORMAL_LAYERS
+  Footprint layer;
+#endif
+#if CLEAR_COAT && COAT_WEIGHT_VARIATION
+  Footprint coat_weight;
+#endif
+#if CLEAR_COAT && COAT_WIDTH_VARIATION
+  Footprint coat_width;
+#endif
+#if CLEAR_COAT && COAT_NORMAL_VARIATION
+  Footprint coat_normal;
+#endif
+#if MATERIAL_INDEX
+  Footprint share;
+#endif
+#if EMISSION_VARIATION
+  Footprint emission;
+#endif
+#if OCCLUSION
+  Footprint occlusion;
+#endif
+#if SCREEN_DERIVATIVES
   mat3 frame_dx;  // what the tangent frame's axes change by to the pixel on the right, in those axes
   mat3 frame_dy;  // and to the one above
-//? end
+#endif
 };
 
-//? if screen_derivatives
+#if SCREEN_DERIVATIVES
 // The change of the unit half vector of one light to the pixels on the right and above, each in its own tangent frame.
 struct HalfSteps {
   vec3 dx;
   vec3 dy;
 };
-//? end
+#endif
 
-mat2 part_edges;  // of the part of the footprint that is shaded, in pixels  //? if screen_derivatives and filter_parts
-//? if surface_coordinates or screen_derivatives
+#if SCREEN_DERIVATIVES && FILTER_PARTS
+mat2 part_edges;  // of the part of the footprint that is shaded, in pixels
+#endif
+#if SURFACE_COORDINATES || SCREEN_DERIVATIVES
 // Rotates from the tangent frame of the shaded point to the axes of the camera: x right, y up, z towards the viewer.
 mat3 tangent_to_camera;
-//? end
+#endif
 
 // The size of a mip level. llvmpipe evaluates `textureSize` with one level for eight pixels, even if neighbours differ.
 vec2 levelSize(ivec2 finest, int level) { return vec2(max(finest >> level, ivec2(1))); }
 
 // Count texture lookups and lobe evaluations per pixel, on request. Modules with lookups or lobes of their own call
 // them too.
-//? if counting
+#if COUNTING
 int lookups = 0;
 int lobe_evaluations = 0;
 float finest_area = 0.0;  // of the pixel on a map whose finest level is read whatever the footprint; the whole map has 1
 void countLookups(int count) { lookups += count; }
 void countLobes(int count) { lobe_evaluations += count; }
 void countFinest(Footprint f) { finest_area = max(finest_area, abs(determinant(mat2(f.dx, f.dy)))); }
-//? else
+#else
 void countLookups(int count) {}
 void countLobes(int count) {}
 void countFinest(Footprint f) {}
-//? end
+#endif
 
 // The rounds of loops that depend on the pixel: constants in programs whose cost is estimated, because compilers must
 // unroll them (docs/explanation/gpu-cost.md). A counting program writes their means.
-//? if fixed_trips
+#if FIXED_TRIPS
 int probesHere(int count) { return fixed_probes; }
 int lobesHere(int count) { return fixed_lobes; }
 bool anotherRound(int done, bool more) { return done < fixed_rounds; }
-//? elif counting_trips
+#elif COUNTING_TRIPS
 ivec2 probe_trips = ivec2(0);  // rounds and loops
 ivec2 lobe_trips = ivec2(0);
 ivec2 walk_trips = ivec2(0);
@@ -82,17 +102,17 @@ bool anotherRound(int done, bool more) {
   return more;
 }
 float meanTrips(ivec2 trips) { return float(trips.x) / float(max(trips.y, 1)); }
-//? else
+#else
 int probesHere(int count) { return count; }
 int lobesHere(int count) { return count; }
 bool anotherRound(int done, bool more) { return more; }
-//? end
+#endif
 
 const float any_level = 1e3;  // no level is as coarse
 
-//? if sampling_frame
-//? include footprint_probes.glsl
-//? if texture_arrays
+#if SAMPLING_FRAME
+#include "footprint_probes.glsl"
+#if TEXTURE_ARRAYS
 vec4 fetchProbes(sampler2DArray map, int layer, Footprint f, Probes p, float level) {
   countLookups(p.count);
   vec4 sum = vec4(0.0);
@@ -103,20 +123,20 @@ vec4 fetchProbes(sampler2DArray map, int layer, Footprint f, Probes p, float lev
   return sum;
 }
 
-//? end
-//? if filter_hardware
+#endif
+#if FILTER_HARDWARE
 vec4 fetch(sampler2D map, Footprint f) {
   countLookups(1);
   return textureGrad(map, f.uv, f.dx, f.dy);
 }
 
-//? if texture_arrays
+#if TEXTURE_ARRAYS
 vec4 fetch(sampler2DArray map, int layer, Footprint f) {
   countLookups(1);
   return textureGrad(map, vec3(f.uv, layer), f.dx, f.dy);
 }
-//? end
-//? else
+#endif
+#else
 vec4 fetch(sampler2D map, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0)), f);
   countLookups(p.count);
@@ -128,32 +148,39 @@ vec4 fetch(sampler2D map, Footprint f) {
   return sum;
 }
 
-//? if texture_arrays
+#if TEXTURE_ARRAYS
 vec4 fetch(sampler2DArray map, int layer, Footprint f) {
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
   return fetchProbes(map, layer, f, p, p.level);
 }
-//? end
-//? end
+#endif
+#endif
 
-//? if texture_arrays
+#if TEXTURE_ARRAYS
 // As `fetch`, limited to levels up to `coarsest`, which hardware filters cannot be.
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
-  if (coarsest >= any_level) return fetch(map, layer, f);  //? if filter_hardware
+#if FILTER_HARDWARE
+  if (coarsest >= any_level) return fetch(map, layer, f);
+#endif
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
   return fetchProbes(map, layer, f, p, min(p.level, coarsest));
 }
-//? end
-//? end
+#endif
+#endif
 
-vec2 texel_draw;  // of this sample, uniform in [0, 1)  //? if random_draws
+#if RANDOM_DRAWS
+vec2 texel_draw;  // of this sample, uniform in [0, 1)
+#endif
 
 // Where the finest level of a map is read. A sample of the reference draws one texel with bilinear weights by a sampler
 // that must be `nearest`: the expectation of the shaded value is then the bilinear filter of radiance. Maps with the
 // same size and coordinates draw the same texel. At a point, the sampler selects nearest or bilinear filtering.
 vec2 finestUv(vec2 size, Footprint f) {
-  return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size;  //? if sampling_texel
-  return f.uv;                                                  //? else
+#if SAMPLING_TEXEL
+  return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size;
+#else
+  return f.uv;
+#endif
 }
 
 // The finest level without filtering.
@@ -162,23 +189,23 @@ vec4 fetchFinest(sampler2D map, Footprint f) {
   countFinest(f);
   return textureLod(map, finestUv(vec2(textureSize(map, 0)), f), 0.0);
 }
-//? if texture_arrays
+#if TEXTURE_ARRAYS
 vec4 fetchFinest(sampler2DArray map, int layer, Footprint f) {
   countLookups(1);
   countFinest(f);
   return textureLod(map, vec3(finestUv(vec2(textureSize(map, 0).xy), f), layer), 0.0);
 }
-//? end
+#endif
 
-//? if not sampling_frame
+#if !SAMPLING_FRAME
 vec4 fetch(sampler2D map, Footprint f) { return fetchFinest(map, f); }
-//? if texture_arrays
+#if TEXTURE_ARRAYS
 vec4 fetch(sampler2DArray map, int layer, Footprint f) { return fetchFinest(map, layer, f); }
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) { return fetchFinest(map, layer, f); }
-//? end
-//? end
+#endif
+#endif
 
-//? if texel_lookups
+#if TEXEL_LOOKUPS
 // Iterates over the texels that `fetch` would blend: eight of two levels per probe. For maps whose texels must not be
 // blended. Only the size of the map is given; its chain ends at one texel.
 struct FootprintTexel {
@@ -187,7 +214,7 @@ struct FootprintTexel {
   float weight;  // of this texel; all weights of a footprint sum to one
 };
 
-//? if sampling_frame
+#if SAMPLING_FRAME
 int footprintTexelCount(ivec2 finest, Footprint f) { return 8 * probesOf(vec2(finest), f).count; }
 
 FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
@@ -209,12 +236,12 @@ FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
   float between = coarser ? level - lower : 1.0 - (level - lower);
   return FootprintTexel((corner + side + 0.5) / size, own, share * between * bilinear.x * bilinear.y);
 }
-//? else
+#else
 int footprintTexelCount(ivec2 finest, Footprint f) { return 1; }
 FootprintTexel footprintTexel(ivec2 finest, Footprint f, int i) {
   return FootprintTexel(finestUv(vec2(finest), f), 0.0, 1.0);
 }
-//? end
+#endif
 
 int footprintTexelCount(sampler2DArray map, Footprint f) { return footprintTexelCount(textureSize(map, 0).xy, f); }
 FootprintTexel footprintTexel(sampler2DArray map, Footprint f, int i) {
@@ -225,4 +252,4 @@ vec4 fetchTexel(sampler2DArray map, int layer, FootprintTexel t) {
   countLookups(1);
   return textureLod(map, vec3(t.uv, layer), t.level);
 }
-//? end
+#endif

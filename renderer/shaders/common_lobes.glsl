@@ -27,7 +27,7 @@ float oneMinusDot(vec3 n, vec3 h) {
   return 0.5 * dot(d, d);
 }
 
-//? if distribution_blinn_phong
+#if DISTRIBUTION_BLINN_PHONG
 // (s + 1) / (2 pi) (n.h)^s: unit energy over solid angle.
 float lobeDensity(float s, vec3 n, vec3 h) {
   countLobes(1);
@@ -41,10 +41,10 @@ float lobeVariance(float s) { return 1.0 / max(s, 1e-6); }
 float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }
 float lobeAlpha(float s) { return sqrt(2.0 / (s + 2.0)); }
 float lobeEnergy(float s) { return 1.0; }
-//? end
+#endif
 
-//? if distribution_vmf
-//? include vmf.glsl
+#if DISTRIBUTION_VMF
+#include "vmf.glsl"
 float lobeDensity(float kappa, vec3 n, vec3 h) {
   countLobes(1);
   return vmfDensity(kappa, n, h);
@@ -54,9 +54,9 @@ float lobeVariance(float kappa) { return 1.0 / max(kappa, 1e-6); }
 float lobeFromVariance(float variance) { return min(1.0 / max(variance, 1e-12), largest_exponent); }
 float lobeAlpha(float kappa) { return min(sqrt(2.0 / max(kappa, 1e-6)), 1.0); }
 float lobeEnergy(float kappa) { return 1.0; }
-//? end
+#endif
 
-//? if distribution_beckmann
+#if DISTRIBUTION_BECKMANN
 // e^{-tan^2 / alpha^2} / (pi alpha^2 cos^4) (Beckmann 1963; Walter 2007, equation 25).
 float lobeDensity(float alpha, vec3 n, vec3 h) {
   countLobes(1);
@@ -80,10 +80,10 @@ float lobeEnergy(float alpha) {
   float c = (2.0 * side + 2.492 * a2) / (side + 1.957 * a2);
   return 1.0 + a2 / (1.0 + sqrt(1.0 + c * a2));
 }
-//? end
+#endif
 
-//? if distribution_ggx
-//? include ggx_density.glsl
+#if DISTRIBUTION_GGX
+#include "ggx_density.glsl"
 float lobeDensity(float alpha, vec3 n, vec3 h) {
   countLobes(1);
   return ggxDensity(alpha * alpha, n, h);
@@ -99,7 +99,7 @@ float lobeEnergy(float alpha) {
   float ratio = t < 0.03 ? 1.0 + t * t / 3.0 : log((1.0 + t) / alpha) / t;
   return 1.0 + a2 * ratio;
 }
-//? end
+#endif
 
 // glTF 2.0, appendix B: alpha is the square of the perceptual roughness.
 float lobeFromRoughness(float roughness) { return lobeFromAlpha(roughness * roughness); }

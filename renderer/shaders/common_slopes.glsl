@@ -1,5 +1,5 @@
-// Slope statistics, b = -n_xy / n_z with mean B and covariance S, and the lobe over them. The option `roughness` is
-// that of renderer/bake/slope_moments.hpp.
+// Slope statistics, b = -n_xy / n_z with mean B and covariance S, and what the lobes over them share. A module includes
+// stretched_slopes.glsl or gaussian_slopes.glsl, which define `slopeLobe` and `slopeDensity`.
 
 const float smallest_slope_cosine = 1e-3;  // hard stop of slopes at the horizon
 
@@ -17,15 +17,10 @@ mat2 slopeCovariance(vec2 mean, vec3 second) {
   return 0.5 * largest * mat2(1.0 + turn.x, turn.y, turn.y, 1.0 - turn.x);
 }
 
-//? if variant_clean
-// Variance per axis, from E[b.b] instead of M.
-float scalarCovariance(vec2 mean, float trace) { return max(0.5 * (trace - dot(mean, mean)), 0.0); }
-
-//? end
 // The determinant of a covariance, at least 0 despite rounding.
 float determinantOfCovariance(mat2 c) { return max(c[0][0] * c[1][1] - c[0][1] * c[1][0], 0.0); }
 
-//? if diffuse
+#if DIFFUSE
 // The symmetric square root of a covariance.
 mat2 covarianceRoot(mat2 c) {
   float s = sqrt(determinantOfCovariance(c));
@@ -43,7 +38,7 @@ vec3 meanOfSlopes(vec2 mean, mat2 root) {
   }
   return sum;
 }
-//? end
+#endif
 
 // [d -b; -c a]: the inverse times the determinant.
 mat2 adjugate(mat2 m) { return mat2(m[1][1], -m[0][1], -m[1][0], m[0][0]); }
@@ -62,18 +57,15 @@ struct SlopeLobe {
   float secant;   // 1 / axis.z
   mat2 shape;     // stretched: offsets from B to offsets of the base lobe; Gaussian: inverse covariance
   float scale;    // stretched: determinant of `shape`; Gaussian: the peak of the density of slopes
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
   mat2 widths;    // twice the covariance of slopes about `axis`, base lobe included: squared alphas
-//? end
+#endif
 };
 
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
 // Alpha along and across the direction of the base lobe whose round mean has a slope variance, as far as the moments do
 // not include it.
-vec2 baseAlphas(float variance) {
-  return vec2(sqrt(2.0 * variance));               //? if normal_variation and roughness_moments
-  return facetAlphas(lobeFromVariance(variance));  //? else
-}
+vec2 baseAlphas(float variance);
 
 // The covariance of the slopes of that lobe about a texel's own normal.
 mat2 baseCovariance(float variance) {
@@ -81,82 +73,9 @@ mat2 baseCovariance(float variance) {
   return 0.5 * inFacetAxes(alphas.x * alphas.x, alphas.y * alphas.y);
 }
 
-//? end
+#endif
 
-//? if roughness_stretched
-// The base lobe about `axis`, stretched by the linear map of slopes that takes its covariance W = v J J^T to the
-// footprint's S + W. `shape` is the inverse of that map, J X^-1/2 J^-1 with X = 1 + J^-1 S J^-1 / v.
-// The square root of a 2 x 2 matrix is X^1/2 = (X + s) / t, s^2 = det X, t^2 = tr X + 2 s. det X = 1 + tr + det of the
-// rest is a sum without cancellation.
-// For an anisotropic lobe W = J V J with its covariance V: the map is J N X^1/2 (J N)^-1 with N = (V / v)^1/2 and X = 1 +
-// (J N)^-1 S (J N)^-T / v, which leaves the base lobe of equal slopes as it is.
-SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
-  float q = sqrt(1.0 + dot(mean, mean));
-  mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
-  mat2 local = inverse_jacobian * spread * inverse_jacobian;
-//? if anisotropic_lobe
-  vec2 deviations = baseAlphas(variance) * inversesqrt(2.0 * variance);
-  mat2 narrowed = inFacetAxes(1.0 / deviations.x, 1.0 / deviations.y);
-  mat2 ratio = narrowed * local * narrowed / variance;
-//? else
-  mat2 ratio = local / variance;
-//? end
-  float trace = ratio[0][0] + ratio[1][1];
-  float s = sqrt(1.0 + trace + determinantOfCovariance(ratio));
-  float t = sqrt(2.0 + trace + 2.0 * s);
-  mat2 inverse_root = (adjugate(mat2(1.0) + ratio) + mat2(s)) / (s * t);
-//? if anisotropic_lobe
-  mat2 widened = inFacetAxes(deviations.x, deviations.y);
-  return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
-                   slopeJacobian(mean, q) * widened * inverse_root * narrowed * inverse_jacobian, 1.0 / s,
-                   2.0 * (local + baseCovariance(variance)));
-//? else
-  return SlopeLobe(mean, spread, variance, variance * (1.0 + 0.5 * trace), normalOfSlope(mean), q,
-                   slopeJacobian(mean, q) * inverse_root * inverse_jacobian, 1.0 / s);
-//? end
-}
-
-// Density over solid angle: D(h) dh = D_base(h') dh' with dh = h_z^3 db, which preserves the energy of the base lobe.
-float slopeDensity(SlopeLobe e, vec3 h) {
-  float cosine = max(h.z, smallest_slope_cosine);
-  vec3 base = normalOfSlope(e.mean + e.shape * (-h.xy / cosine - e.mean));
-  float ratio = base.z / cosine;
-  return baseDensity(lobeFromVariance(e.base), e.axis, base) * (e.scale * ratio * ratio * ratio);
-}
-//? else
-// A Gaussian over slopes with covariance S + v (Olano and Baker 2010), v the slope variance of the base lobe.
-SlopeLobe slopeLobe(vec2 mean, mat2 spread, float variance) {
-  float slope2 = dot(mean, mean);
-  float q = sqrt(1.0 + slope2);
-  mat2 inverse_jacobian = inverseSlopeJacobian(mean, q);
-  mat2 local = inverse_jacobian * spread * inverse_jacobian;
-  float least = max(variance, 1e-7 * (1.0 + slope2));  // below it, 32-bit moments are rounding
-//? if anisotropic_lobe
-  vec2 alphas = max(baseAlphas(variance), sqrt(2e-7 * (1.0 + slope2)));
-  mat2 base = 0.5 * inFacetAxes(alphas.x * alphas.x, alphas.y * alphas.y);
-  mat2 both = spread + base;
-  // det (S + V) as a sum without cancellation: det S + det V + tr (adj S V).
-  float determinant = determinantOfCovariance(spread) + 0.25 * alphas.x * alphas.x * alphas.y * alphas.y +
-                      max(dot(adjugate(spread)[0], base[0]) + dot(adjugate(spread)[1], base[1]), 0.0);
-  return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
-                   adjugate(both) / determinant, 1.0 / (2.0 * pi * sqrt(determinant)), 2.0 * (local + base));
-//? else
-  float determinant = least * (least + spread[0][0] + spread[1][1]) + determinantOfCovariance(spread);
-  return SlopeLobe(mean, spread, variance, variance + 0.5 * (local[0][0] + local[1][1]), normalOfSlope(mean), q,
-                   adjugate(spread + mat2(least)) / determinant, 1.0 / (2.0 * pi * sqrt(determinant)));
-//? end
-}
-
-// p22 / h_z^3: density over solid angle (dh = h_z^3 db).
-float slopeDensity(SlopeLobe e, vec3 h) {
-  countLobes(1);
-  float cosine = max(h.z, smallest_slope_cosine);
-  vec2 offset = -h.xy / cosine - e.mean;
-  return e.scale * exp(-0.5 * max(dot(offset, e.shape * offset), 0.0)) / (cosine * cosine * cosine);
-}
-//? end
-
-//? if lobes_listed
+#if LOBES_LISTED
 // Splits an elongated lobe into a row of round ones along its long axis, for environment light: Gaussian weights and
 // the same total variance. Five or seven up to 1.9 deviations; one if less than 1.3 times as long as wide.
 struct LobeRow {
@@ -167,16 +86,16 @@ struct LobeRow {
 
 LobeRow lobeRow(SlopeLobe e) {
   mat2 inverse_jacobian = inverseSlopeJacobian(e.mean, e.secant);
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
   mat2 local = 0.5 * e.widths;
   float alpha = baseAlphas(e.base).y;
   float narrowest = 0.5 * alpha * alpha;
   float base = 0.0;  // `local` includes it
-//? else
+#else
   mat2 local = inverse_jacobian * e.spread * inverse_jacobian;
   float narrowest = e.base;
   float base = e.base;
-//? end
+#endif
   vec2 deviator = vec2(0.5 * (local[0][0] - local[1][1]), local[0][1]);
   float radius = length(deviator);
   float middle = base + 0.5 * (local[0][0] + local[1][1]);
@@ -189,13 +108,15 @@ LobeRow lobeRow(SlopeLobe e) {
   return ratio <= 16.0 ? LobeRow(2, across, 1.0025 * unit) : LobeRow(3, across, 0.6869 * unit);
 }
 
+// A lobe of a row. variance: of its slopes, per axis. lobe: the parameter of a base lobe of that variance.
+NormalLobe lobeInRow(vec3 axis, float variance, float lobe, float share);
+
 NormalLobe lobeOfRow(SlopeLobe e, LobeRow row, int i) {
   int steps = i - row.half_count;
   vec3 axis = normalOfSlope(e.mean + float(steps) * row.step);
   float x = row.half_count == 0 ? 0.0 : 1.9 * float(steps) / float(row.half_count);
   float share = exp(-0.5 * x * x) / (row.half_count == 0 ? 1.0 : row.half_count == 2 ? 2.6026 : 3.8622);
   float lobe = lobeFromVariance(row.across);
-  return baseNormalLobe(axis, lobe, share);                   //? if roughness_stretched
-  return vmfNormalLobe(axis, 1.0 / row.across, share, lobe);  //? else
+  return lobeInRow(axis, row.across, lobe, share);
 }
-//? end
+#endif

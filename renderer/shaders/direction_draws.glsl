@@ -5,7 +5,7 @@ uniform int directions_per_sample;
 uniform uvec4 cell_directions[16], direction_steps[16];
 uniform uint cell_choices[16], choice_steps[16];
 
-//? if clear_coat
+#if CLEAR_COAT
 const float coat_draws = 0.25;  // of the directions that lobes draw, where there is a coat
 
 // The mirror image of wo about a normal drawn from the facets of the coat.
@@ -23,21 +23,23 @@ float coatDirectionDensity(Coat coat, vec3 wi, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   return ggxDensity(coat.alpha2, coat.normal, h) * max(dot(coat.normal, h), 0.0) / (4.0 * max(dot(h, wo), 1e-6));
 }
-//? end
+#endif
 
 // Draws a direction from the lobes of the point, and returns its density.
 vec3 lobeDirection(SurfacePoint p, vec3 u) {
-//? if clear_coat
+#if CLEAR_COAT
   if (p.coat.share > 0.0) {
     if (u.z < coat_draws) return coatDirection(p.coat, p.wo, u.xy);
     u.z = (u.z - coat_draws) / (1.0 - coat_draws);
   }
-//? end
+#endif
   return drawDirection(p.effective, p.wo, u);
 }
 
 float lobeDirectionDensity(SurfacePoint p, vec3 wi) {
   float density = directionDensity(p.effective, wi, p.wo);
-  if (p.coat.share > 0.0) density = mix(density, coatDirectionDensity(p.coat, wi, p.wo), coat_draws);  //? if clear_coat
+#if CLEAR_COAT
+  if (p.coat.share > 0.0) density = mix(density, coatDirectionDensity(p.coat, wi, p.wo), coat_draws);
+#endif
   return density;
 }

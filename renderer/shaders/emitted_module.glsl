@@ -10,3 +10,5 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   r.specular = vec3(0.0);
   return r;
 }
+
+float ndf(Effective e, vec3 h) { return 0.0; }

@@ -1,18 +1,21 @@
 // Environment light for the reference: directions from its texels and from the lobe of the module, weighted by the
 // balance heuristic (Veach and Guibas 1995). With `environment_dense`, all directional lights instead (Iwasaki et al.
 // 2012). Both agree if no lobe is narrower than the cell of a light.
-//? if environment_visibility
-//? include octahedral.glsl
-//? include environment_visibility.glsl
-//? end
+#if ENVIRONMENT_VISIBILITY
+#include "octahedral.glsl"
+#include "environment_visibility.glsl"
+#endif
 
 // Whether light from a world direction reaches the pixel.
 bool arrives(vec3 direction) {
-  return isVisible(direction);  //? if environment_visibility
-  return true;                  //? else
+#if ENVIRONMENT_VISIBILITY
+  return isVisible(direction);
+#else
+  return true;
+#endif
 }
 
-//? if environment_dense
+#if ENVIRONMENT_DENSE
 vec3 environmentIntegral(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
   int count = textureSize(environment_lights, 0).x;
@@ -27,7 +30,7 @@ vec3 environmentIntegral(SurfacePoint p) {
   if (i < count) return vec3(uintBitsToFloat(0x7fc00000u));
   return radiance;
 }
-//? else
+#else
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_size;  // columns, rows; turn of the map about +y in radians
 };
@@ -103,4 +106,4 @@ vec3 environmentIntegral(SurfacePoint p) {
   } while (++i < end);
   return radiance / float(count);
 }
-//? end
+#endif

@@ -3,12 +3,12 @@
 layout(std140, binding = 5) uniform EnvironmentBlock {
   vec4 environment_mean;         // radiance over all directions
   vec4 environment_stack_range;  // sharpness of the finest map's lobe, number of maps: two per level
-//? if environment_suns
+#if ENVIRONMENT_SUNS
   vec4 environment_suns[2 * environment_sun_count];  // each: towards it, world space; irradiance on what faces it
-//? end
+#endif
 };
 
-//? include octahedral.glsl
+#include "octahedral.glsl"
 
 // Map 2 l is level l of layer 0; map 2 l + 1 is level l of layer 1.
 vec3 stackMap(int map, vec2 uv) {
@@ -59,16 +59,18 @@ VisibleLobe visibleLobe(NormalLobe lobe, vec3 wo) {
   return VisibleLobe(normalize(shifted), sine * deviation * max(mean, 0.0));
 }
 
-//? if environment_visibility
-//? include environment_visibility.glsl
-//? else
+#if ENVIRONMENT_VISIBILITY
+#include "environment_visibility.glsl"
+#else
 float visibleElevation(vec3 direction, float elevation) { return elevation; }
-//? end
+#endif
 
-//? if environment_suns
+#if ENVIRONMENT_SUNS
 // A sun that is too small for lookups and removed from the maps.
 vec3 sunLit(SurfacePoint p, vec3 direction, vec3 irradiance) {
-  if (!isVisible(direction)) return vec3(0.0);  //? if environment_visibility
+#if ENVIRONMENT_VISIBILITY
+  if (!isVisible(direction)) return vec3(0.0);
+#endif
   return reflected(p, incident(direction * p.frame, irradiance, vec4(direction, 0.0)));
 }
 
@@ -80,13 +82,16 @@ vec3 sunRadiance(SurfacePoint p) {
   } while (++i < environment_sun_count);
   return radiance;
 }
-//? end
+#endif
 
 // The normal of the plane below which light does not count for a lobe: that of the surface or, with an open horizon, of
 // the facets of the lobe.
 vec3 horizonNormal(NormalLobe lobe) {
-  return lobe.normal;          //? if horizon_open
-  return vec3(0.0, 0.0, 1.0);  //? else
+#if HORIZON_OPEN
+  return lobe.normal;
+#else
+  return vec3(0.0, 0.0, 1.0);
+#endif
 }
 
 // The lobe of reflected directions: mean and sharpness.
@@ -120,19 +125,19 @@ struct Beside {
   vec3 color;
 };
 
-//? if clear_coat
+#if CLEAR_COAT
 // Passed instead of a lobe index for the coat; its weight, share and spread replace f0.
 const int coat_lobe = -1;
-//? end
+#endif
 
 Beside besideDensity(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 h, vec3 wi, vec3 wo, float sharpness) {
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
   vec3 all = lobeReflectance(e, i, f0, h, wi, wo, sharpness);
   float mean = dot(all, vec3(1.0 / 3.0));
   return Beside(mean, all / max(mean, 1e-12));
-//? else
+#else
   return Beside(lobeGeometry(e, lobe, h, wi, wo), fresnelTerm(f0, wi, wo));
-//? end
+#endif
 }
 
 // The radiance that a lobe reflects towards wo: the integral of F D G' L over wi. With dwi = 4 (h.wo) dh, the energy of
@@ -152,7 +157,7 @@ vec3 lobeRadiance(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wo, mat3 fr
   return beside.color * reflected * stackRadiance(frame * above.axis, above.sharpness);
 }
 
-//? if distribution_ggx or clear_coat
+#if DISTRIBUTION_GGX || CLEAR_COAT
 // GGX has a longer tail than any Gaussian, and wide lobes reflect below the horizon, where masking is strongest. So the
 // visible normals near the axis and the others look up the environment separately. A table over view and alpha stores
 // the energy, direction and sharpness of both vMF lobes (radiance_stack.hpp).
@@ -160,9 +165,13 @@ const float smith_steps = 4.0;  // of radiance_stack.hpp
 
 // Where the table includes the geometry factor of the base BRDF.
 float geometryStep(NormalLobe lobe, float alpha) {
-  return smith_steps * clamp(lobe.base / alpha, 0.0, 1.0);  //? if masking_shadowing and geometry_smith
-  return smith_steps + 1.0;                                 //? elif masking_shadowing and geometry_tan
-  return smith_steps + 2.0;                                 //? else
+#if MASKING_SHADOWING && GEOMETRY_SMITH
+  return smith_steps * clamp(lobe.base / alpha, 0.0, 1.0);
+#elif MASKING_SHADOWING && GEOMETRY_TAN
+  return smith_steps + 1.0;
+#else
+  return smith_steps + 2.0;
+#endif
 }
 
 struct TailedLobe {
@@ -187,20 +196,20 @@ TailedLobe tailedLobe(NormalLobe lobe, vec3 wo) {
 // The ratio of a geometry factor to that of the table in a direction: for modules with their own factor, or another
 // normal.
 vec3 ownGeometry(Effective e, int i, NormalLobe lobe, vec3 f0, vec3 wi, vec3 wo, float sharpness) {
-//? if distribution_ggx
+#if DISTRIBUTION_GGX
   vec3 h = halfVector(wi, wo);
   float table = max(geometryFactor(min(lobe.base, inversesqrt(0.5 * lobe.sharpness)), lobe.axis, h, wi, wo), 1e-6);
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
   return min(lobeReflectance(e, i, f0, h, wi, wo, sharpness) / max(table * fresnelTerm(f0, wi, wo), 1e-6), 4.0);
-//? else
+#else
   return vec3(min(lobeGeometry(e, lobe, h, wi, wo) / table, 4.0));
-//? end
-//? else
+#endif
+#else
   return vec3(1.0);
-//? end
+#endif
 }
 
-//? if not horizon_open
+#if !HORIZON_OPEN
 // The part of a lobe above the plane of the surface, as a lobe: the ratio of the shares above it and above the facets',
 // which the table includes. The last factor is fitted, because a wide truncated lobe is not Gaussian.
 float cutByHorizon(inout ReflectedLobe lobe, vec3 own_normal, vec3 n, float alpha) {
@@ -212,7 +221,7 @@ float cutByHorizon(inout ReflectedLobe lobe, vec3 own_normal, vec3 n, float alph
   float left = min(share / own, 1.0);
   return left * mix(1.0, left, alpha);
 }
-//? end
+#endif
 
 // Half 0 or 1 of a lobe from the table, interpolated between two steps of the geometry factor.
 vec4 tablePart(TailedLobe tailed, float geometry, int half_of) {
@@ -229,23 +238,30 @@ vec3 partRadiance(Effective e, int i, NormalLobe lobe, TailedLobe tailed, vec4 p
   vec3 axis = cos(part.b) * tailed.mirrored + sin(part.b) * tailed.across;
   ReflectedLobe above = ReflectedLobe(axis, exp2(part.a) * 0.5 * lobe.sharpness);
   float share = lobe.weight;
-  share *= cutByHorizon(above, lobe.axis, vec3(0.0, 0.0, 1.0), tailed.alpha);  //? if not horizon_open
-//? if environment_visibility
+#if !HORIZON_OPEN
+  share *= cutByHorizon(above, lobe.axis, vec3(0.0, 0.0, 1.0), tailed.alpha);
+#endif
+#if ENVIRONMENT_VISIBILITY
   float elevation = dot(horizonNormal(lobe), above.axis);
   share *= shareAbove(visibleElevation(frame * above.axis, elevation), above.sharpness) /
            shareAbove(elevation, above.sharpness);
-//? end
+#endif
   vec3 energy = vec3(part.r + part.g);
-//? if clear_coat
+#if CLEAR_COAT
   if (i == coat_lobe) {
     Coat coat = Coat(lobe.normal, 2.0 / lobe.sharpness, f0.x, f0.y, f0.z);
     energy *= coatShare(coat, halfVector(axis, wo), wo);
   } else {
-//? end
-    energy = part.r * f0 + part.g;  //? if fresnel and fresnel_schlick
-    energy *= f0;                   //? else
+#endif
+#if FRESNEL && FRESNEL_SCHLICK
+    energy = part.r * f0 + part.g;
+#else
+    energy *= f0;
+#endif
     energy *= ownGeometry(e, i, lobe, f0, axis, wo, above.sharpness);
-  }  //? if clear_coat
+#if CLEAR_COAT
+  }
+#endif
   return share * energy * stackRadiance(frame * above.axis, above.sharpness);
 }
 
@@ -254,7 +270,7 @@ vec3 tailedRadiance(Effective e, int i, NormalLobe lobe, float geometry, vec3 f0
   return partRadiance(e, i, lobe, tailed, tablePart(tailed, geometry, 0), f0, wo, frame) +
          partRadiance(e, i, lobe, tailed, tablePart(tailed, geometry, 1), f0, wo, frame);
 }
-//? end
+#endif
 
 vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
   vec3 radiance = vec3(0.0);
@@ -264,35 +280,41 @@ vec3 environmentSpecular(Effective e, vec3 f0, vec3 wo, mat3 frame) {
     NormalLobe lobe = normalLobe(e, i);
     if (lobe.weight <= 0.0) continue;
     countLobes(1);
-//? if distribution_ggx
+#if DISTRIBUTION_GGX
     if (lobe.tailed) {
       radiance += tailedRadiance(e, i, lobe, geometryStep(lobe, inversesqrt(0.5 * lobe.sharpness)), f0, wo, frame);
       continue;
     }
-//? end
+#endif
     radiance += lobeRadiance(e, i, lobe, f0, wo, frame);
   } while (++i < count);
   return radiance;
 }
 
-//? if environment_diffuse
-//? if fresnel
+#if ENVIRONMENT_DIFFUSE
+#if FRESNEL
 // The mean over a uniform hemisphere, weighted by the cosine, of the light that Schlick's term transmits. (1 - v.h)^5
 // has the mean 0.0282 (1 - n.v)^2.6 + 0.0001, to 5e-4.
 vec3 meanTransmitted(vec3 f0, float cosine) {
-  return (1.0 - f0) * (0.9999 - 0.0282 * pow(1.0 - clamp(cosine, 0.0, 1.0), 2.6));  //? if fresnel_schlick
-  return vec3(1.0);                                                                 //? else
+#if FRESNEL_SCHLICK
+  return (1.0 - f0) * (0.9999 - 0.0282 * pow(1.0 - clamp(cosine, 0.0, 1.0), 2.6));
+#else
+  return vec3(1.0);
+#endif
 }
-//? end
+#endif
 
 DiffuseFacets diffuseFacets(Effective e, vec3 wo) {
-//? if microgeometry_visibility
+#if MICROGEOMETRY_VISIBILITY
   return visibleFacets(e, wo);
-//? else
+#else
   vec3 m = meanNormal(e);
-  return DiffuseFacets(m, vec3(1.0), false);                               //? if horizon_open
-  return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);  //? else
-//? end
+#if HORIZON_OPEN
+  return DiffuseFacets(m, vec3(1.0), false);
+#else
+  return DiffuseFacets(m, vec3(clamp(0.5 + 0.5 * m.z, 0.0, 1.0)), false);
+#endif
+#endif
 }
 
 // Lambert's term over all directions. Irradiance is almost linear in the normal: the mean over all directions plus |m|
@@ -306,21 +328,27 @@ vec3 environmentDiffuse(Effective e, vec3 albedo, vec3 f0, vec3 wo, mat3 frame) 
   countLookups(1);
   vec3 facing = textureLod(environment_irradiance, uv, 0.0).rgb;  // irradiance over pi
   vec3 reflected = facets.share * mix(environment_mean.rgb, facing, min(size, 1.0));
-  reflected *= visibleDiffuse();  //? if environment_visibility
+#if ENVIRONMENT_VISIBILITY
+  reflected *= visibleDiffuse();
+#endif
   if (facets.whole) return reflected;
   reflected *= albedo;
-  reflected *= meanTransmitted(f0, dot(n, wo));  //? if fresnel
+#if FRESNEL
+  reflected *= meanTransmitted(f0, dot(n, wo));
+#endif
   return reflected;
 }
-//? end
+#endif
 
 vec3 environmentLit(Effective e, Surface s, vec3 wo, mat3 frame) {
   vec3 radiance = environmentSpecular(e, s.f0, wo, frame);
-  radiance += environmentDiffuse(e, s.albedo, s.f0, wo, frame);  //? if environment_diffuse
+#if ENVIRONMENT_DIFFUSE
+  radiance += environmentDiffuse(e, s.albedo, s.f0, wo, frame);
+#endif
   return radiance;
 }
 
-//? if clear_coat
+#if CLEAR_COAT
 // The light of the environment that the coat reflects, times its share.
 vec3 coatLit(SurfacePoint p) {
   if (p.coat.share <= 0.0) return vec3(0.0);
@@ -329,4 +357,4 @@ vec3 coatLit(SurfacePoint p) {
   vec3 shares = vec3(p.coat.weight, p.coat.share, p.coat.spread);
   return tailedRadiance(p.effective, coat_lobe, lobe, smith_steps, shares, p.wo, p.frame);
 }
-//? end
+#endif

@@ -15,7 +15,9 @@ float signedDistance(vec3 direction) {
 
 // Whether only its own horizon occludes the surface. Unknown for the back of double-sided surfaces.
 bool isOpen() {
-  if (!gl_FrontFacing) return true;  //? if double_sided
+#if DOUBLE_SIDED
+  if (!gl_FrontFacing) return true;
+#endif
   return visible_diffuse.w == 0.0;
 }
 
@@ -29,6 +31,8 @@ float visibleElevation(vec3 direction, float elevation) {
 bool isVisible(vec3 direction) { return isOpen() || signedDistance(direction) > 0.0; }
 
 vec3 visibleDiffuse() {
-  if (!gl_FrontFacing) return vec3(1.0);  //? if double_sided
+#if DOUBLE_SIDED
+  if (!gl_FrontFacing) return vec3(1.0);
+#endif
   return visible_diffuse.rgb;
 }

@@ -7,8 +7,8 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(e.
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
-//? if lobes_listed
-//? include facet_normal_lobes.glsl
+#if LOBES_LISTED
+#include "facet_normal_lobes.glsl"
 
 vec3 meanNormal(Effective e) { return e.facets.normal; }
-//? end
+#endif

@@ -3,7 +3,7 @@
 
 // As `fetchUpTo`, for all layers.
 void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layers[fetched_layers]) {
-//? if sampling_frame and not filter_hardware
+#if SAMPLING_FRAME && !FILTER_HARDWARE
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);
   countLookups(fetched_layers * p.count);
   float level = min(p.level, coarsest);
@@ -14,7 +14,7 @@ void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layer
     float weight = probeWeight(p, i);
     for (int l = 0; l < fetched_layers; ++l) layers[l] += weight * textureLod(map, vec3(uv, l), level);
   } while (++i < p.count);
-//? else
+#else
   for (int l = 0; l < fetched_layers; ++l) layers[l] = fetchUpTo(map, l, f, coarsest);
-//? end
+#endif
 }

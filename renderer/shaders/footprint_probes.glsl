@@ -2,21 +2,21 @@
 // footprint. The weights sum to one. There is at least one probe, so loops test at their end; a test at the head makes
 // llvmpipe execute the body once more for no pixel.
 
-//? if filter_area
-//? include footprint_area.glsl
-//? else
+#if FILTER_AREA
+#include "footprint_area.glsl"
+#else
 struct Probes {
   int count;
   float level;
-//? if filter_anisotropic or filter_hardware
+#if FILTER_ANISOTROPIC || FILTER_HARDWARE
   vec2 step;     // from probe to probe, in texture coordinates
   float weight;  // of each
-//? end
-//? if filter_ewa
+#endif
+#if FILTER_EWA
   vec2 axis;      // in texture coordinates: the longer one
   float falloff;  // the weight of the probe at axis t is exp(-falloff t^2) of the middle's
   float whole;    // their sum
-//? end
+#endif
 };
 
 // The level with texels as wide as the longer edge of one of `parts` x `parts` equal parts (OpenGL 4.5, section 8.14).
@@ -27,7 +27,7 @@ float levelOf(vec2 size, Footprint f, float parts) {
   return 0.5 * log2(max(max(dot(edge_x, edge_x), dot(edge_y, edge_y)) / (parts * parts), 1e-24));
 }
 
-//? if filter_anisotropic or filter_hardware
+#if FILTER_ANISOTROPIC || FILTER_HARDWARE
 // Equal probes along the longer edge at the level of the shorter one, as EXT_texture_filter_anisotropic has them. An
 // even footprint must have one probe despite rounding: two are a whole level finer.
 Probes probesOf(vec2 size, Footprint f) {
@@ -42,7 +42,7 @@ Probes probesOf(vec2 size, Footprint f) {
 
 vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.step * (float(i) - 0.5 * float(p.count - 1)); }
 float probeWeight(Probes p, int i) { return p.weight; }
-//? elif filter_box
+#elif FILTER_BOX
 // n x n equal probes at the centres of parts that tile the footprint.
 Probes probesOf(vec2 size, Footprint f) {
   return Probes(probesHere(footprint_parts * footprint_parts), levelOf(size, f, float(footprint_parts)));
@@ -54,7 +54,7 @@ vec2 probeUv(Footprint f, Probes p, int i) {
 }
 
 float probeWeight(Probes p, int i) { return 1.0 / float(p.count); }
-//? elif filter_ewa
+#elif FILTER_EWA
 // Position along the longer axis of the ellipse, -1 to 1.
 float probeAxis(Probes p, int i) { return p.count > 1 ? 2.0 * float(i) / float(p.count - 1) - 1.0 : 0.0; }
 
@@ -93,9 +93,9 @@ Probes probesOf(vec2 size, Footprint f) {
 }
 
 vec2 probeUv(Footprint f, Probes p, int i) { return f.uv + p.axis * probeAxis(p, i); }
-//? else
+#else
 Probes probesOf(vec2 size, Footprint f) { return Probes(1, levelOf(size, f, 1.0)); }
 vec2 probeUv(Footprint f, Probes p, int i) { return f.uv; }
 float probeWeight(Probes p, int i) { return 1.0; }
-//? end
-//? end
+#endif
+#endif

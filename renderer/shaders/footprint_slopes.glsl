@@ -1,13 +1,12 @@
 // The slopes under the footprint of a pixel, from the textures of `bake_slopes` (renderer/bake/slope_moments.hpp) plus
-// a bump layer, and the lobe of common_slopes.glsl over them. The flag `with_mean_normal` says whether the textures
-// include the mean normal, for a diffuse term over one map only.
-//? include common_slopes.glsl
-//? include lobe_variance.glsl if averages_variance and (not normal_variation or not roughness_moments)
-//? include mean_roughness.glsl if averages_roughness
+// a bump layer, and the lobe over them. A module also includes one text that defines the lobe (stretched_slopes.glsl,
+// gaussian_slopes.glsl) and one that reads the moments (full_moments.glsl, scalar_moments.glsl), and it defines
+// `addedVariance`.
+#include "common_slopes.glsl"
 
 // As `fetch`, for two textures of the same size, in one loop over the probes.
 void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
-//? if sampling_frame and not filter_hardware
+#if SAMPLING_FRAME && !FILTER_HARDWARE
   Probes p = probesOf(vec2(textureSize(first, 0)), f);
   countLookups(2 * p.count);
   of_first = vec4(0.0);
@@ -19,60 +18,57 @@ void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first
     of_first += weight * textureLod(first, uv, p.level);
     of_second += weight * textureLod(second, uv, p.level);
   } while (++i < p.count);
-//? else
+#else
   of_first = fetch(first, f);
   of_second = fetch(second, f);
-//? end
+#endif
 }
+
+#if NORMAL_VARIATION
+// The stored moments of the normal map; of the scalar ones without a mean normal, `rest` is 0.
+void fetchSlopes(Footprints f, out vec4 moments, out vec4 rest);
+
+#endif
+#if NORMAL_LAYERS
+// The stored moments of a bump layer.
+void fetchLayer(Footprints f, out vec4 moments, out vec4 rest);
+
+#endif
+// The covariance of stored moments.
+mat2 spreadOf(vec4 moments, vec4 rest);
+
+// The mean normal next to stored moments, not renormalised; undefined if it is not stored.
+vec3 meanNormalOf(vec4 rest);
+
+// The slope variance of the base lobe that the moments do not include.
+float addedVariance(Footprints f);
 
 struct FilteredSlopes {
   vec2 mean;
-  mat2 spread;  // covariance
-  vec3 mean_normal;  // not renormalised  //? if with_mean_normal and diffuse and normal_variation and not normal_layers
+  mat2 spread;       // covariance
+  vec3 mean_normal;  // of a normal map without layers, if it is stored
 };
-
-//? if variant_clean
-mat2 spreadOf(vec4 moments, vec4 rest) { return mat2(scalarCovariance(moments.xy, moments.z)); }
-//? else
-mat2 spreadOf(vec4 moments, vec4 rest) { return slopeCovariance(moments.xy, vec3(moments.z, rest.x, moments.w)); }
-//? end
 
 FilteredSlopes filteredSlopes(Footprints f) {
   FilteredSlopes s;
   s.mean = vec2(0.0);
   s.spread = mat2(0.0);
+  s.mean_normal = vec3(0.0, 0.0, 1.0);
   vec4 moments = vec4(0.0);
   vec4 rest = vec4(0.0);
-//? if normal_variation
-//? if variant_clean and (normal_layers or not diffuse or not with_mean_normal)
-  moments = fetch(slope_moments, f.normal);
-//? else
-  fetchPair(slope_moments, slope_rest, f.normal, moments, rest);
-//? end
+#if NORMAL_VARIATION
+  fetchSlopes(f, moments, rest);
   s.mean = moments.xy;
   s.spread = spreadOf(moments, rest);
-//? if with_mean_normal and diffuse and not normal_layers
-  s.mean_normal = rest.xyz;  //? if variant_clean
-  s.mean_normal = rest.yzw;  //? else
-//? end
-//? end
-//? if normal_layers
+  s.mean_normal = meanNormalOf(rest);
+#endif
+#if NORMAL_LAYERS
   // Slopes of independent layers add, and so do means and covariances; adding these has the least cancellation.
-  moments = fetch(layer_moments, f.layer);                       //? if variant_clean
-  fetchPair(layer_moments, layer_rest, f.layer, moments, rest);  //? else
+  fetchLayer(f, moments, rest);
   s.mean += moments.xy;
   s.spread += spreadOf(moments, rest);
-//? end
+#endif
   return s;
-}
-
-// The slope variance of the base lobe that the moments do not include.
-float addedVariance(Footprints f) {
-  return 0.0;                                            //? if normal_variation and roughness_moments
-  return baseVariance(f);                                //? elif averages_variance
-  return lobeVariance(baseLobe(f));                      //? elif averages_roughness
-  return lobeVariance(fetch(mean_lobe, f.roughness).r);  //? elif roughness_variation
-  return lobeVariance(lobe_cutoff.x);                    //? else
 }
 
 // The lobe over the footprint of a pixel.

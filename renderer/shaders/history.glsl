@@ -64,7 +64,7 @@ vec4 reprojected(ivec2 pixel) {
   return linear_weights > 0.01 ? linear_sum / linear_weights : vec4(-1.0);
 }
 
-//? if clamp_box or clamp_variance
+#if CLAMP_BOX || CLAMP_VARIANCE
 // Limits the history to what the pixels around show: to their range, and to one deviation from their mean (Salvi 2016).
 vec4 limited(vec4 old, ivec2 pixel) {
   ivec2 last = textureSize(frame, 0) - 1;
@@ -83,15 +83,15 @@ vec4 limited(vec4 old, ivec2 pixel) {
     count += 1.0;
   }
   if (count == 0.0) return old;
-//? if clamp_variance
+#if CLAMP_VARIANCE
   vec4 mean = sum / count;
   vec4 deviation = sqrt(max(squares / count - mean * mean, 0.0));
   low = max(low, mean - deviation);
   high = min(high, mean + deviation);
-//? end
+#endif
   return clamp(old, low, high);
 }
-//? end
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -104,6 +104,8 @@ void main() {
     history = has_old ? old : vec4(0.0);
     return;
   }
-  if (has_old) old = limited(old, pixel);  //? if clamp_box or clamp_variance
+#if CLAMP_BOX || CLAMP_VARIANCE
+  if (has_old) old = limited(old, pixel);
+#endif
   history = has_old ? mix(old, newest, share) : newest;
 }

@@ -1,9 +1,9 @@
 // Tests whether all samples of a pixel see one smooth piece of surface: each is compared with the first, at the lower
 // left of the first pass. Blending takes the minimum over all passes: 1 if all agree.
-//? if cast_shadow
+#if CAST_SHADOW
 layout(binding = 0) uniform sampler2D shares;
 layout(binding = 4) uniform sampler2D first_shares;
-//? else
+#else
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D facets;
 layout(binding = 2) uniform sampler2D normals;
@@ -15,7 +15,7 @@ layout(binding = 7) uniform sampler2D first_mapped;
 layout(binding = 8) uniform sampler2D first_material;
 uniform bool by_coverage, by_material, by_chart, by_cut, by_normal, by_depth;
 uniform float rounding;  // of positions, metres
-//? end
+#endif
 uniform int grid;
 
 // Interior (1 or 0); index of the only material in the pixel; unused; longer edge of the footprint in texels.
@@ -27,12 +27,12 @@ const float most_sine = 0.17364818;
 const float most_share = 1.0 / 16.0;     // of a light
 const float unbounded = 3e38;            // leaves what other passes wrote
 
-//? if cast_shadow
+#if CAST_SHADOW
 bool agrees(ivec2 at, ivec2 first) {
   vec4 difference = abs(texelFetch(shares, at, 0) - texelFetch(first_shares, first, 0));
   return all(lessThanEqual(difference, vec4(most_share)));
 }
-//? else
+#else
 // The step from the first sample is within the surface: within 10 degrees of the plane of the triangle, and at most
 // twice the span of the pixel there. At grazing views, a step to another sheet is almost in the plane.
 bool isOnSurface(vec3 step, vec3 facet, float extent) {
@@ -61,7 +61,7 @@ bool agrees(ivec2 at, ivec2 first) {
   if (by_depth) yes = yes && isOnSurface(step, f0.xyz, n0.w);
   return yes;
 }
-//? end
+#endif
 
 void main() {
   ivec2 corner = ivec2(gl_FragCoord.xy) * grid;
@@ -69,10 +69,10 @@ void main() {
   for (int y = 0; y < grid; ++y) {
     for (int x = 0; x < grid; ++x) all_agree = all_agree && agrees(corner + ivec2(x, y), corner);
   }
-//? if cast_shadow
+#if CAST_SHADOW
   smooth_material_texels = vec4(all_agree ? 1.0 : 0.0, vec3(unbounded));
-//? else
+#else
   smooth_material_texels = vec4(all_agree ? 1.0 : 0.0, texelFetch(first_material, corner, 0).r, 0.0,
                                 texelFetch(first_mapped, corner, 0).w);
-//? end
+#endif
 }

@@ -18,20 +18,28 @@ float tiltOf(float tangent2) {
 }
 
 // 1 - cos of a normal drawn from the lobe, and its density over solid angle. u is in (0, 1].
-float drawnTilt(float s, float u) { return shortOfOne(log(u) / (s + 1.0)); }             //? if distribution_blinn_phong
-float drawnTilt(float alpha, float u) { return tiltOf(-alpha * alpha * log(u)); }        //? elif distribution_beckmann
-float drawnTilt(float alpha, float u) { return tiltOf(alpha * alpha * (1.0 - u) / u); }  //? elif distribution_ggx
-//? if distribution_vmf
+#if DISTRIBUTION_BLINN_PHONG
+float drawnTilt(float s, float u) { return shortOfOne(log(u) / (s + 1.0)); }
+#elif DISTRIBUTION_BECKMANN
+float drawnTilt(float alpha, float u) { return tiltOf(-alpha * alpha * log(u)); }
+#elif DISTRIBUTION_GGX
+float drawnTilt(float alpha, float u) { return tiltOf(alpha * alpha * (1.0 - u) / u); }
+#endif
+#if DISTRIBUTION_VMF
 float drawnTilt(float kappa, float u) {
   float k = max(kappa, 1e-3);
   return clamp(-log(u + (1.0 - u) * exp(-2.0 * k)) / k, 0.0, 2.0);
 }
-//? end
+#endif
 // For microfacets, the projected area integrates to one.
 float drawnDensity(float lobe, vec3 n, vec3 h) {
-  return lobeDensity(lobe, n, h);                        //? if distribution_blinn_phong
-  return lobeDensity(max(lobe, 1e-3), n, h);             //? elif distribution_vmf
-  return lobeDensity(lobe, n, h) * max(dot(n, h), 0.0);  //? else
+#if DISTRIBUTION_BLINN_PHONG
+  return lobeDensity(lobe, n, h);
+#elif DISTRIBUTION_VMF
+  return lobeDensity(max(lobe, 1e-3), n, h);
+#else
+  return lobeDensity(lobe, n, h) * max(dot(n, h), 0.0);
+#endif
 }
 
 vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
@@ -41,46 +49,49 @@ vec3 drawnNormal(float lobe, vec3 n, vec2 u) {
   return frameAbout(n) * vec3(sine * cos(azimuth), sine * sin(azimuth), 1.0 - tilt);
 }
 
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
 // Slopes of the round lobe of alpha 1, stretched along the axes of the facet.
 vec3 drawnBaseNormal(float lobe, vec3 n, vec2 u) {
   float left = max(1.0 - u.x, 1e-7);
-  float tangent = sqrt((1.0 - left) / left);  //? if distribution_ggx
-  float tangent = sqrt(-log(left));           //? else
+#if DISTRIBUTION_GGX
+  float tangent = sqrt((1.0 - left) / left);
+#else
+  float tangent = sqrt(-log(left));
+#endif
   float azimuth = 2.0 * pi * u.y;
   vec2 slope = facetAlphas(lobe) * tangent * vec2(cos(azimuth), sin(azimuth));
   vec2 d = facetDirection();
   return turnedWithNormal(normalize(vec3(slope.x * d + slope.y * vec2(-d.y, d.x), 1.0)), n);
 }
 float drawnBaseDensity(float lobe, vec3 n, vec3 h) { return baseDensity(lobe, n, h) * max(dot(n, h), 0.0); }
-//? else
+#else
 vec3 drawnBaseNormal(float lobe, vec3 n, vec2 u) { return drawnNormal(lobe, n, u); }
 float drawnBaseDensity(float lobe, vec3 n, vec3 h) { return drawnDensity(lobe, n, h); }
-//? end
+#endif
 
-//? if multi_lobe
+#if MULTI_LOBE
 float facetWeight() {
   float sum = 0.0;
   for (int k = 0; k < facet_lobe_count; ++k) sum += facet_lobes[k].weight;
   return sum;
 }
-//? end
+#endif
 
 // Draws a normal of facets; u.z selects the lobe.
 vec3 drawnFacet(Facets f, vec3 u) {
-//? if multi_lobe
+#if MULTI_LOBE
   if (facet_lobe_count > 0) {
     float left = u.z * facetWeight();
     int k = 0;
     while (k < facet_lobe_count - 1 && left >= facet_lobes[k].weight) left -= facet_lobes[k++].weight;
     return drawnNormal(widenedLobe(k, f.spread), turnedWithNormal(facet_lobes[k].axis, f.normal), u.xy);
   }
-//? end
+#endif
   return drawnBaseNormal(f.lobe, f.normal, u.xy);
 }
 
 float drawnFacetDensity(Facets f, vec3 h) {
-//? if multi_lobe
+#if MULTI_LOBE
   if (facet_lobe_count > 0) {
     vec3 own = inFacetFrame(h, f.normal);
     float sum = 0.0;
@@ -89,6 +100,6 @@ float drawnFacetDensity(Facets f, vec3 h) {
     }
     return sum / facetWeight();
   }
-//? end
+#endif
   return drawnBaseDensity(f.lobe, f.normal, h);
 }

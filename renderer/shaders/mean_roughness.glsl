@@ -1,5 +1,8 @@
 // The base lobe of the mean roughness under a footprint, from the texture of bake_mean_roughness (normal_chain.hpp).
 float baseLobe(Footprints f) {
-  return lobeFromRoughness(fetch(mean_roughness, f.roughness).r);  //? if roughness_variation
-  return lobe_cutoff.x;                                            //? else
+#if ROUGHNESS_VARIATION
+  return lobeFromRoughness(fetch(mean_roughness, f.roughness).r);
+#else
+  return lobe_cutoff.x;
+#endif
 }

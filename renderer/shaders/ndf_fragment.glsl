@@ -6,13 +6,21 @@ uniform vec2 footprint_uv[3];      // slots normal, roughness, base_color: centr
 uniform vec2 footprint_dx[3];
 uniform vec2 footprint_dy[3];
 
-//? module
-//? include footprint_parts.glsl if filter_parts
+#include "method_module.glsl"
+#include "method_contract.glsl"
+
+#if FILTER_PARTS
+#include "footprint_parts.glsl"
+#endif
 Footprint givenFootprint(int slot) { return Footprint(footprint_uv[slot], footprint_dx[slot], footprint_dy[slot]); }
 
-//? include stretch_under.glsl if anisotropic_lobe and anisotropy_variation
+#if ANISOTROPIC_LOBE && ANISOTROPY_VARIATION
+#include "stretch_under.glsl"
+#endif
 float densityOf(Footprints f, vec3 h) {
-  stretch = stretchUnder(f);  //? if anisotropic_lobe and anisotropy_variation
+#if ANISOTROPIC_LOBE && ANISOTROPY_VARIATION
+  stretch = stretchUnder(f);
+#endif
   return ndf(effective(f), h);
 }
 
@@ -26,16 +34,16 @@ void main() {
   all.normal = givenFootprint(0);
   all.roughness = givenFootprint(1);
   all.base_color = givenFootprint(2);
-//? if surface_coordinates
+#if SURFACE_COORDINATES
   all.surface = all.normal;
   tangent_to_camera = mat3(1.0);  // the camera looks at the plane from above
-//? end
-//? if filter_shaded
+#endif
+#if FILTER_SHADED
   density = 0.0;
   int parts = partCount();
   for (int i = 0; i < parts; ++i) density += densityOf(partOf(all, i), h);
   density /= float(parts);
-//? else
+#else
   density = densityOf(all, h);
-//? end
+#endif
 }

@@ -18,8 +18,11 @@ void fetchNeighbourFrames(mat3 frame, inout Footprints f) {
 
 // The half vector of a neighbour in its own frame.
 vec3 halfVectorAt(Neighbour n, vec4 source) {
-  vec3 to_viewer = to_camera;                                //? if orthographic
-  vec3 to_viewer = normalize(camera_position - n.position);  //? else
+#if ORTHOGRAPHIC
+  vec3 to_viewer = to_camera;
+#else
+  vec3 to_viewer = normalize(camera_position - n.position);
+#endif
   return halfVector(normalize(source.xyz - source.w * n.position), to_viewer) * n.frame;
 }
 
@@ -27,9 +30,9 @@ vec3 halfVectorAt(Neighbour n, vec4 source) {
 HalfSteps halfSteps(vec3 wi, vec4 source, vec3 wo) {
   vec3 h = halfVector(wi, wo);
   HalfSteps steps = HalfSteps(halfVectorAt(beside[0], source) - h, halfVectorAt(beside[1], source) - h);
-//? if filter_parts
+#if FILTER_PARTS
   steps = HalfSteps(steps.dx * part_edges[0].x + steps.dy * part_edges[0].y,
                     steps.dx * part_edges[1].x + steps.dy * part_edges[1].y);
-//? end
+#endif
   return steps;
 }

@@ -1,6 +1,6 @@
 // The effective NDF as lobes over half vectors, which modules provide for environment light.
 
-//? include vmf.glsl
+#include "vmf.glsl"
 
 // A spherical Gaussian over half vectors, e^{sharpness ((axis.h) - 1)}.
 struct NormalLobe {
@@ -27,26 +27,34 @@ NormalLobe vmfNormalLobe(vec3 axis, float kappa, float share, float base) {
 // The base lobe about an axis, with a `share` of the footprint. Its width is that of the lobe near its peak. The
 // integral of D(h) (axis.h) is one for a microfacet lobe and (s + 1) / (s + 2) for a Blinn-Phong lobe.
 NormalLobe baseNormalLobe(vec3 axis, float lobe, float share) {
-//? if distribution_blinn_phong
+#if DISTRIBUTION_BLINN_PHONG
   return NormalLobe(axis, lobe + 1.0, share * (lobe + 1.0) / (lobe + 2.0), lobe, false, axis);
-//? end
-  return vmfNormalLobe(axis, lobe, share, lobe);  //? if distribution_vmf
-  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false, axis);  //? if distribution_beckmann
-  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true, axis);  //? if distribution_ggx
+#endif
+#if DISTRIBUTION_VMF
+  return vmfNormalLobe(axis, lobe, share, lobe);
+#endif
+#if DISTRIBUTION_BECKMANN
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, false, axis);
+#endif
+#if DISTRIBUTION_GGX
+  return NormalLobe(axis, 2.0 / (lobe * lobe), share, lobe, true, axis);
+#endif
 }
 
-//? include lobe_row.glsl if anisotropic_lobe
+#if ANISOTROPIC_LOBE
+#include "lobe_row.glsl"
+#endif
 
 // The lobes of facets with a `share` of the footprint.
-//? if anisotropic_lobe
+#if ANISOTROPIC_LOBE
 int baseRowCount() { return row_count; }
 NormalLobe baseRowLobe(Facets f, int k, float share) { return lobeOfWidths(squaredWidths(f.lobe), f.normal, k, share); }
-//? else
+#else
 int baseRowCount() { return 1; }
 NormalLobe baseRowLobe(Facets f, int k, float share) { return baseNormalLobe(f.normal, f.lobe, share); }
-//? end
+#endif
 
-//? if multi_lobe
+#if MULTI_LOBE
 int facetLobeCount() { return facet_lobe_count == 0 ? baseRowCount() : facet_lobe_count; }
 
 NormalLobe facetNormalLobe(Facets f, int k, float share) {
@@ -56,7 +64,7 @@ NormalLobe facetNormalLobe(Facets f, int k, float share) {
   lobe.normal = f.normal;
   return lobe;
 }
-//? else
+#else
 int facetLobeCount() { return baseRowCount(); }
 NormalLobe facetNormalLobe(Facets f, int k, float share) { return baseRowLobe(f, k, share); }
-//? end
+#endif

@@ -1,6 +1,6 @@
 // The moments of parts of the normals under a footprint, from array textures that filters may average, and the lobe of
 // a facet. Includers define `const int parts` and `const int part_channels`: 6, or 5 without the mixed second moment.
-//? include lobe_variance.glsl
+#include "lobe_variance.glsl"
 
 // A part of weight w: w, w x, w y; w x^2, w x y (0 if not stored), w y^2.
 struct Moments {
@@ -26,17 +26,17 @@ struct BaseLobe {
 };
 
 BaseLobe baseLobe(Footprints f) {
-//? if roughness_variation
+#if ROUGHNESS_VARIATION
   float variance = baseVariance(f);
   return BaseLobe(lobeFromVariance(variance), variance);
-//? else
+#else
   return BaseLobe(lobe_cutoff.x, lobeVariance(lobe_cutoff.x));
-//? end
+#endif
 }
 
-//? if texture_arrays
+#if TEXTURE_ARRAYS
 const int fetched_layers = (parts * part_channels + 3) / 4;
-//? include fetch_layers.glsl
+#include "fetch_layers.glsl"
 
 // The moments of all parts, from levels up to `coarsest`, and the share of the footprint that has valid normals.
 float fetchMoments(sampler2DArray map, Footprint f, float coarsest, out Moments moments[parts]) {
@@ -56,17 +56,23 @@ float fetchMoments(sampler2DArray map, Footprint f, float coarsest, out Moments 
 float fetchMoments(sampler2DArray map, Footprint f, out Moments moments[parts]) {
   return fetchMoments(map, f, any_level, moments);
 }
-//? end
+#endif
 
-//? if lobes_listed
-const int lobes_per_part = row_count;  //? if anisotropic_lobe
-const int lobes_per_part = 1;          //? else
+#if LOBES_LISTED
+#if ANISOTROPIC_LOBE
+const int lobes_per_part = row_count;
+#else
+const int lobes_per_part = 1;
+#endif
 
 // Lobe k of those that stand for a part under an environment: a row, or one round lobe of the same mean slope variance.
 NormalLobe partLobe(Part part, int k) {
-  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);                    //? if anisotropic_lobe
-  NormalLobe lobe = baseNormalLobe(part.axis, lobeFromVariance(part.breadth), part.share);  //? else
+#if ANISOTROPIC_LOBE
+  NormalLobe lobe = lobeOfWidths(part.widths, part.axis, k, part.share);
+#else
+  NormalLobe lobe = baseNormalLobe(part.axis, lobeFromVariance(part.breadth), part.share);
+#endif
   lobe.base = part.lobe;
   return lobe;
 }
-//? end
+#endif

@@ -1,14 +1,11 @@
 // A module with several parts of the normals per pixel, each with share, mean, covariance and a stretched base lobe.
-// Includers define `const int parts`, `Part` and its functions (stretched_part.glsl), and `effective`. Their methods have
-// the option `specular`, and the flag `part_colours`: with specular=joint parts have specular colours of their own.
-//? include part_moments.glsl
+// Includers define `const int parts`, `Part` and its functions (stretched_part.glsl), `effective`, and `partsSpecular`,
+// for which even_parts.glsl is one choice.
+#include "part_moments.glsl"
 
 struct Effective {
   Part part[parts];
   vec3 mean_normal;  // not renormalised: its dot product is the mean of the texels' own
-//? if part_colours and specular_joint and specular_variation
-  vec3 tint[parts];  // specular colour over that of the footprint, per unit of the share
-//? end
 };
 
 float ndf(Effective e, vec3 h) {
@@ -18,30 +15,25 @@ float ndf(Effective e, vec3 h) {
   return sum;
 }
 
-// The geometry factor is that of single facets about the mean of the part.
+// The specular term of all parts about a half vector.
+vec3 partsSpecular(Effective e, Surface s, vec3 h, vec3 wi, vec3 wo);
+
+// The density of a part times its geometry factor, that of single facets about the mean of the part.
+float partReflectance(Part part, Direction at, vec3 h, vec3 wi, vec3 wo) {
+  return partDensity(part, at) * baseGeometry(part.lobe, part.axis, h, wi, wo);
+}
+
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
-  if (halfVectorIsDefined(wi, wo)) {
-    vec3 h = halfVector(wi, wo);
-    Direction at = directionOf(h);
-//? if part_colours and specular_joint and specular_variation
-    for (int i = 0; i < parts; ++i) {
-      r.specular += partDensity(e.part[i], at) * baseGeometry(e.part[i].lobe, e.part[i].axis, h, wi, wo) *
-                    fresnelTerm(s.f0 * e.tint[i], wi, wo);
-    }
-//? else
-    float sum = 0.0;
-    for (int i = 0; i < parts; ++i)
-      sum += partDensity(e.part[i], at) * baseGeometry(e.part[i].lobe, e.part[i].axis, h, wi, wo);
-    r.specular = fresnelTerm(s.f0, wi, wo) * sum;
-//? end
-  }
-  r.diffuse = diffuse(e.mean_normal, s, wi, wo);  //? if diffuse
+  if (halfVectorIsDefined(wi, wo)) r.specular = partsSpecular(e, s, halfVector(wi, wo), wi, wo);
+#if DIFFUSE
+  r.diffuse = diffuse(e.mean_normal, s, wi, wo);
+#endif
   return r;
 }
 
-//? if lobes_listed
+#if LOBES_LISTED
 int lobeCount(Effective e) { return parts * lobes_per_part; }
 
 NormalLobe normalLobe(Effective e, int i) { return partLobe(e.part[i / lobes_per_part], i % lobes_per_part); }
@@ -51,4 +43,4 @@ float lobeGeometry(Effective e, NormalLobe lobe, vec3 h, vec3 wi, vec3 wo) {
 }
 
 vec3 meanNormal(Effective e) { return e.mean_normal; }
-//? end
+#endif

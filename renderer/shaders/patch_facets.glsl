@@ -1,6 +1,6 @@
 // Facets of a patch of small-scale geometry, drawn at random: Iwasaki 2012, equation 1, as a sum over facets with exact
 // visibility. For the reference; the textures are those of renderer/bake/patch_facets.cpp.
-//? include direction_grid.glsl
+#include "direction_grid.glsl"
 
 const int facets_per_sample = 32;  // each from another share of the facets, which lie in the order of their normals
 const int facets_per_row = 128;
@@ -10,8 +10,11 @@ const int texels_per_facet = (visibility_side * visibility_side + bits_per_texel
 
 // The draws of one sample.
 vec2 drawnFacets() {
-  return texel_draw;  //? if random_draws
-  return vec2(0.5);   //? else
+#if RANDOM_DRAWS
+  return texel_draw;
+#else
+  return vec2(0.5);
+#endif
 }
 
 int patchFacet(vec2 draw, int k) {
@@ -53,15 +56,15 @@ float visibleArea(vec3 wo) {
 const float least_visible_area = 1e-6;
 
 // The factor of a paint for the specular reflectance and the base colour.
-//? if microgeometry_colour
+#if MICROGEOMETRY_COLOUR
 vec3 specularFactor(float paint) { return texelFetch(base_paints, ivec2(int(paint), 0), 0).rgb; }
 vec3 diffuseFactor(float paint) { return texelFetch(base_paints, ivec2(int(paint), 1), 0).rgb; }
-//? else
+#else
 vec3 specularFactor(float paint) { return vec3(1.0); }
 vec3 diffuseFactor(float paint) { return vec3(1.0); }
-//? end
+#endif
 
-//? if tabulated_brdf
+#if TABULATED_BRDF
 const float largest_cell_shift = 0.99999;
 
 // The cell of a MERL table (Matusik et al. 2003) about a normal. Matches TabulatedBrdf::at.
@@ -77,12 +80,14 @@ vec3 tabulatedBrdf(vec3 n, vec3 wi, vec3 wo) {
   vec3 share = vec3(theta_d / (0.5 * pi), sqrt(max(theta_h, 0.0) / (0.5 * pi)), phi_d / pi);
   return texelFetch(base_table, ivec3(min(share, largest_cell_shift) * vec3(textureSize(base_table, 0))), 0).rgb;
 }
-//? end
+#endif
 
 Reflected patchReflectance(vec2 draw, Surface s, vec3 wi, vec3 wo) {
   Reflected r;
   r.specular = vec3(0.0);
-  r.diffuse = vec3(0.0);  //? if diffuse
+#if DIFFUSE
+  r.diffuse = vec3(0.0);
+#endif
   float area = visibleArea(wo);
   if (area < least_visible_area) return r;
   for (int k = 0; k < facets_per_sample; ++k) {
@@ -90,19 +95,23 @@ Reflected patchReflectance(vec2 draw, Surface s, vec3 wi, vec3 wo) {
     vec4 normal = drawnNormal(draw, k, wi, wo, paint);
     if (normal.w == 0.0) continue;
     vec3 factor = specularFactor(paint);
-//? if tabulated_brdf
+#if TABULATED_BRDF
     if (base_has_table > 0.5) {  // the table includes diffuse light
       r.specular += normal.w * dot(normal.xyz, wi) * factor * tabulatedBrdf(normal.xyz, wi, wo);
       continue;
     }
-//? end
+#endif
     vec3 f0 = s.f0 * factor;
     r.specular += normal.w * facetSpecular(evenFacets(normal.xyz, lobe_cutoff.x), f0, wi, wo);
-    r.diffuse += normal.w * diffuse(normal.xyz, Surface(s.albedo * diffuseFactor(paint), f0), wi, wo);  //? if diffuse
+#if DIFFUSE
+    r.diffuse += normal.w * diffuse(normal.xyz, Surface(s.albedo * diffuseFactor(paint), f0), wi, wo);
+#endif
   }
   float scale = float(facets_per_sample) * area;
   r.specular /= scale;
-  r.diffuse /= scale;  //? if diffuse
+#if DIFFUSE
+  r.diffuse /= scale;
+#endif
   return r;
 }
 
@@ -119,8 +128,8 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) {
 
 float ndf(Effective e, vec3 h) { return facetDensity(e.facets, h); }
 
-//? if lobes_listed
-//? include facet_normal_lobes.glsl
+#if LOBES_LISTED
+#include "facet_normal_lobes.glsl"
 
 vec3 meanNormal(Effective e) { return e.facets.normal; }
-//? end
+#endif

@@ -1,7 +1,7 @@
 // The draws of a sample of the reference: a texel of the maps, and directions. The points are those of two
 // Owen-scrambled sequences (renderer/pipeline/sample_sequence.hpp), scrambled again per pixel.
-//? include sample_sequence.glsl
-//? include random_numbers.glsl
+#include "sample_sequence.glsl"
+#include "random_numbers.glsl"
 
 uniform ivec2 sample_origin;  // of this tile in the whole image's sample grid
 uniform int sample_grid;
@@ -23,7 +23,7 @@ void drawPoint() {
   texel_draw = scrambledPair(sample_texels[sample_cell], sample_pixel.xy);
 }
 
-//? if sampling_texel
+#if SAMPLING_TEXEL
 // Draws texel i around the centre of a footprint and returns its weight in the bilinear filter. With 4 texels per
 // sample the unit square of the draw is split at the texel borders, and the point is mapped into part i. Maps of the
 // same size and coordinates then take each of the 4 texels once; others take theirs at random.
@@ -38,4 +38,4 @@ float drawTexel(Footprint f, int i) {
   texel_draw = side * lower + part * texel_draw;
   return part.x * part.y;
 }
-//? end
+#endif

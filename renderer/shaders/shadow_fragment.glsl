@@ -1,14 +1,18 @@
 // Writes a shadow map: linear depth along its axis, with the alpha test.
 in float depth;
-//? if alpha_mask
+#if ALPHA_MASK
 in vec2 uv0;
 in vec2 uv1;
-in float vertex_alpha;  //? if vertex_color
+#if VERTEX_COLOR
+in float vertex_alpha;
+#endif
 
-//? include alpha_mask.glsl
-//? end
+#include "alpha_mask.glsl"
+#endif
 
 void main() {
-  if (isCutOut()) discard;  //? if alpha_mask
+#if ALPHA_MASK
+  if (isCutOut()) discard;
+#endif
   gl_FragDepth = depth;
 }

@@ -25,7 +25,7 @@ Footprint areaOfTexel(vec2 size, vec3 texel) {
   return Footprint(texel.xy, vec2(width.x, 0.0), vec2(0.0, width.y));
 }
 
-//? if filter_stochastic_trilinear
+#if FILTER_STOCHASTIC_TRILINEAR
 // One of the texels, footprint_depth levels finer, that a texel is the mean of.
 vec3 texelWithin(vec2 size, vec3 texel, vec2 place) {
   float finer = footprint_depth < 0 ? 0.0 : max(texel.z - float(footprint_depth), 0.0);
@@ -33,7 +33,7 @@ vec3 texelWithin(vec2 size, vec3 texel, vec2 place) {
   vec2 grid = levelSize(ivec2(size), int(finer));
   return vec3((floor(at * grid) + 0.5) / grid, finer);
 }
-//? elif filter_stochastic_gaussian
+#elif FILTER_STOCHASTIC_GAUSSIAN
 // Where a draw falls in the pixel: Heckbert's exp(-2 r^2), cut off at r = 1, by the inverse of its distribution. A part
 // of `width` has width^2 of the variance, so the places have the rest.
 vec2 drawnPlace(vec2 draw, float width) {
@@ -41,10 +41,10 @@ vec2 drawnPlace(vec2 draw, float width) {
   float angle = 6.28318530718 * draw.y;
   return r * vec2(cos(angle), sin(angle));
 }
-//? else
+#else
 // Where a draw falls in the pixel: the centre of one of the parts of `width` that tile it.
 vec2 drawnPlace(vec2 draw, float width) { return width > 0.0 ? (floor(draw / width) + 0.5) * width - 0.5 : draw - 0.5; }
-//? end
+#endif
 
 // The part of the pixel that draw i falls on: a texel of the map that is drawn from. Without such a map it is a point, or
 // the whole footprint of a trilinear lookup.
@@ -54,18 +54,20 @@ FootprintPart partOf(Footprint f, int i) {
   vec2 texel_draw = scrambledPair(sample_texels[i], sample_pixel.xy);
   float level_draw = unitInterval(scrambled(draw_levels[i].x, own.z));
   vec2 size = drawn_texels.xy;
-//? if filter_stochastic_trilinear
+#if FILTER_STOCHASTIC_TRILINEAR
   vec2 at = vec2(0.0);
   float width = 1.0;
-//? else
+#else
   float width = footprint_depth < 0 ? 0.0 : exp2(-float(footprint_depth));
   vec2 at = drawnPlace(place, width);
-//? end
+#endif
   vec2 dx = vec2(width, 0.0);
   vec2 dy = vec2(0.0, width);
   Footprint under = placed(f, at, dx, dy);
   vec3 texel = drawnTexel(size, under.uv, levelOfEdges(size, under.dx, under.dy), texel_draw, level_draw);
-  texel = texelWithin(size, texel, place);  //? if filter_stochastic_trilinear
+#if FILTER_STOCHASTIC_TRILINEAR
+  texel = texelWithin(size, texel, place);
+#endif
   mat2 edges = mat2(f.dx, f.dy);
   if (size == vec2(1.0) || abs(determinant(edges)) < 1e-24) return FootprintPart(at, dx, dy, under);
   Footprint normal = areaOfTexel(size, texel);

@@ -4,17 +4,29 @@ in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 uv0;
 in vec2 uv1;
-in vec2 surface_uv;  //? if surface_coordinates
-in vec4 vertex_color;  //? if vertex_color
+#if SURFACE_COORDINATES
+in vec2 surface_uv;
+#endif
+#if VERTEX_COLOR
+in vec4 vertex_color;
+#endif
 
 layout(location = 0) out vec4 radiance_coverage;
 
 uniform vec3 camera_position;
-uniform mat3 world_to_camera;  //? if surface_coordinates or screen_derivatives
-uniform vec3 to_camera;  //? if orthographic
-bool nothing_to_shade = false;  // set by a module whose sample fell on an invalid texel  //? if not sampling_frame
+#if SURFACE_COORDINATES || SCREEN_DERIVATIVES
+uniform mat3 world_to_camera;
+#endif
+#if ORTHOGRAPHIC
+uniform vec3 to_camera;
+#endif
+#if !SAMPLING_FRAME
+bool nothing_to_shade = false;  // set by a module whose sample fell on an invalid texel
+#endif
 
-//? module
+#include "method_module.glsl"
+#include "method_contract.glsl"
+
 Footprint footprintOf(vec4 linear, vec4 offset_set) {
   vec2 mapped = mat2(linear.xy, linear.zw) * (offset_set.z < 0.5 ? uv0 : uv1) + offset_set.xy;
   return Footprint(mapped, dFdx(mapped), dFdy(mapped));
@@ -23,60 +35,96 @@ Footprint footprintOf(vec4 linear, vec4 offset_set) {
 Footprints pixelFootprints() {
   Footprints f;
   f.normal = footprintOf(uv_linear[0], uv_offset_set[0]);
-  f.roughness = f.normal;                                                //? if shared_coordinates
-  f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);             //? else
-  f.base_color = f.normal;                                               //? if shared_coordinates
-  f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);            //? else
-  f.specular = f.normal;                                                 //? if specular_variation and shared_coordinates
-  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);  //? elif specular_variation
-  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));  //? if surface_coordinates
-  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);  //? if normal_layers
-  f.coat_weight = footprintOf(coat_uv_linear[0], coat_uv_offset_set[0]);  //? if clear_coat and coat_weight_variation
-  f.coat_width = footprintOf(coat_uv_linear[1], coat_uv_offset_set[1]);  //? if clear_coat and coat_width_variation
-  f.coat_normal = footprintOf(coat_uv_linear[2], coat_uv_offset_set[2]);  //? if clear_coat and coat_normal_variation
-  f.share = footprintOf(share_uv_linear, share_uv_offset_set);  //? if material_index
-  f.emission = footprintOf(emission_uv_linear, emission_uv_offset_set);  //? if emission_variation
-  f.occlusion = footprintOf(occlusion_uv_linear, occlusion_uv_offset_set);  //? if occlusion
+#if SHARED_COORDINATES
+  f.roughness = f.normal;
+  f.base_color = f.normal;
+#else
+  f.roughness = footprintOf(uv_linear[1], uv_offset_set[1]);
+  f.base_color = footprintOf(uv_linear[2], uv_offset_set[2]);
+#endif
+#if SPECULAR_VARIATION && SHARED_COORDINATES
+  f.specular = f.normal;
+#elif SPECULAR_VARIATION
+  f.specular = footprintOf(specular_uv_linear, specular_uv_offset_set);
+#endif
+#if SURFACE_COORDINATES
+  f.surface = Footprint(surface_uv, dFdx(surface_uv), dFdy(surface_uv));
+#endif
+#if NORMAL_LAYERS
+  f.layer = footprintOf(uv_linear[3], uv_offset_set[3]);
+#endif
+#if CLEAR_COAT && COAT_WEIGHT_VARIATION
+  f.coat_weight = footprintOf(coat_uv_linear[0], coat_uv_offset_set[0]);
+#endif
+#if CLEAR_COAT && COAT_WIDTH_VARIATION
+  f.coat_width = footprintOf(coat_uv_linear[1], coat_uv_offset_set[1]);
+#endif
+#if CLEAR_COAT && COAT_NORMAL_VARIATION
+  f.coat_normal = footprintOf(coat_uv_linear[2], coat_uv_offset_set[2]);
+#endif
+#if MATERIAL_INDEX
+  f.share = footprintOf(share_uv_linear, share_uv_offset_set);
+#endif
+#if EMISSION_VARIATION
+  f.emission = footprintOf(emission_uv_linear, emission_uv_offset_set);
+#endif
+#if OCCLUSION
+  f.occlusion = footprintOf(occlusion_uv_linear, occlusion_uv_offset_set);
+#endif
   return f;
 }
 
-//? include sample_draws.glsl if random_draws
+#if RANDOM_DRAWS
+#include "sample_draws.glsl"
+#endif
 
-//? include tangent_frame.glsl
+#include "tangent_frame.glsl"
 
-//? if cast_shadow
-//? include facet_normal.glsl
+#if CAST_SHADOW
+#include "facet_normal.glsl"
 vec3 seen_facet;  // of the pixel
 
-//? end
-//? include incident_light.glsl
+#endif
+#include "incident_light.glsl"
 
-//? if screen_derivatives
-//? include neighbour_pixels.glsl
+#if SCREEN_DERIVATIVES
+#include "neighbour_pixels.glsl"
 
-//? end
-//? include footprint_parts.glsl if filter_parts
+#endif
+#if FILTER_PARTS
+#include "footprint_parts.glsl"
+#endif
 
-//? if clear_coat
-//? include clear_coat.glsl
+#if CLEAR_COAT
+#include "clear_coat.glsl"
 
-//? end
-//? include stretch_under.glsl if anisotropic_lobe and anisotropy_variation
+#endif
+#if ANISOTROPIC_LOBE && ANISOTROPY_VARIATION
+#include "stretch_under.glsl"
+#endif
 // The surface seen through a pixel or a part of it.
 struct SurfacePoint {
   Effective effective;
   Surface surface;
   mat3 frame;
   vec3 wo;  // tangent frame
-  Coat coat;  //? if clear_coat
+#if CLEAR_COAT
+  Coat coat;
+#endif
 };
 
 // f * cos of both terms, and the coat over them.
 vec3 withCoat(SurfacePoint p, Reflected r, vec3 wi) {
-  vec3 base = r.specular + r.diffuse;  //? if diffuse
-  vec3 base = r.specular;              //? else
-  return (1.0 - p.coat.share) * base + coatReflectance(p.coat, wi, p.wo);  //? if clear_coat
-  return base;                                                             //? else
+#if DIFFUSE
+  vec3 base = r.specular + r.diffuse;
+#else
+  vec3 base = r.specular;
+#endif
+#if CLEAR_COAT
+  return (1.0 - p.coat.share) * base + coatReflectance(p.coat, wi, p.wo);
+#else
+  return base;
+#endif
 }
 
 vec3 reflectance(SurfacePoint p, vec3 wi) { return withCoat(p, shade(p.effective, p.surface, wi, p.wo), wi); }
@@ -84,30 +132,34 @@ vec3 reflectance(SurfacePoint p, vec3 wi) { return withCoat(p, shade(p.effective
 // The contribution of one light.
 vec3 reflected(SurfacePoint p, Incident light) {
   if (!reachesFacets(light.wi)) return vec3(0.0);
-//? if screen_derivatives
+#if SCREEN_DERIVATIVES
   Reflected r = shade(p.effective, p.surface, light.wi, p.wo, halfSteps(light.wi, light.source, p.wo));
-//? else
+#else
   Reflected r = shade(p.effective, p.surface, light.wi, p.wo);
-//? end
+#endif
   return withCoat(p, r, light.wi) * light.irradiance_at_normal;
 }
 
-//? if directions_drawn and not environment_dense or area_sampled
-//? include direction_draws.glsl
+#if DIRECTIONS_DRAWN && !ENVIRONMENT_DENSE || AREA_SAMPLED
+#include "direction_draws.glsl"
 
-//? end
-//? include environment_sampling.glsl if environment_sampled
-//? include environment_stack.glsl if environment_light and not environment_sampled
+#endif
+#if ENVIRONMENT_SAMPLED
+#include "environment_sampling.glsl"
+#endif
+#if ENVIRONMENT_LIGHT && !ENVIRONMENT_SAMPLED
+#include "environment_stack.glsl"
+#endif
 
-//? if area_sampled
-//? include area_sampling.glsl
+#if AREA_SAMPLED
+#include "area_sampling.glsl"
 
-//? end
-//? if area_lobes
-//? include area_lobes.glsl
+#endif
+#if AREA_LOBES
+#include "area_lobes.glsl"
 
-//? end
-//? if filter_parts
+#endif
+#if FILTER_PARTS
 // Evaluates every light once per pixel, independent of the number of parts.
 Incident arriving[max(light_capacity, 1)];
 int arriving_count = 0;
@@ -117,131 +169,185 @@ void add(Incident light) {
 }
 
 void findLight(mat3 frame) {
-  for (int i = 0; i < point_light_count; ++i) add(incidentPoint(i, frame));  //? if point_light
-  for (int i = 0; i < spot_light_count; ++i) add(incidentSpot(i, frame));  //? if spot_light
-  for (int i = 0; i < directional_light_count; ++i) add(incidentDirectional(i, frame));  //? if directional_light
-  for (int i = 0; i < area_point_count; ++i) add(incidentAreaPoint(i, frame));  //? if area_points
+#if POINT_LIGHT
+  for (int i = 0; i < point_light_count; ++i) add(incidentPoint(i, frame));
+#endif
+#if SPOT_LIGHT
+  for (int i = 0; i < spot_light_count; ++i) add(incidentSpot(i, frame));
+#endif
+#if DIRECTIONAL_LIGHT
+  for (int i = 0; i < directional_light_count; ++i) add(incidentDirectional(i, frame));
+#endif
+#if AREA_POINTS
+  for (int i = 0; i < area_point_count; ++i) add(incidentAreaPoint(i, frame));
+#endif
 }
-//? end
+#endif
 
-//? if environment_light and not environment_sampled
+#if ENVIRONMENT_LIGHT && !ENVIRONMENT_SAMPLED
 // Environment light, by lobes.
 vec3 environmentRadiance(SurfacePoint p) {
-  vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);  //? if environment_summed
-  vec3 base = environmentLit(p.effective, p.surface, p.wo, p.frame);  //? else
-  return (1.0 - p.coat.share) * base + coatLit(p);  //? if clear_coat
-  return base;                                      //? else
+#if ENVIRONMENT_SUMMED
+  vec3 base = environmentSum(p.effective, p.surface, p.wo, p.frame);
+#else
+  vec3 base = environmentLit(p.effective, p.surface, p.wo, p.frame);
+#endif
+#if CLEAR_COAT
+  return (1.0 - p.coat.share) * base + coatLit(p);
+#else
+  return base;
+#endif
 }
 
-//? end
-float unoccluded;  // the share of the environment's light that the occlusion map leaves  //? if occlusion
+#endif
+#if OCCLUSION
+float unoccluded;  // the share of the environment's light that the occlusion map leaves
+#endif
 
 vec3 lit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
-//? if filter_parts
+#if FILTER_PARTS
   for (int i = 0; i < arriving_count; ++i) radiance += reflected(p, arriving[i]);
-//? else
-//? if point_light
+#else
+#if POINT_LIGHT
   int point = 0;
   do {
     radiance += reflected(p, incidentPoint(point, p.frame));
   } while (point++ < point_light_count - 1);
-//? end
-//? if spot_light
+#endif
+#if SPOT_LIGHT
   int spot = 0;
   do {
     radiance += reflected(p, incidentSpot(spot, p.frame));
   } while (spot++ < spot_light_count - 1);
-//? end
-//? if directional_light
+#endif
+#if DIRECTIONAL_LIGHT
   int directional = 0;
   do {
     radiance += reflected(p, incidentDirectional(directional, p.frame));
   } while (directional++ < directional_light_count - 1);
-//? end
-//? if area_points
+#endif
+#if AREA_POINTS
   int area_point = 0;
   do {
     radiance += reflected(p, incidentAreaPoint(area_point, p.frame));
   } while (area_point++ < area_point_count - 1);
-//? end
-//? end
-  radiance += areaIntegral(p);  //? if area_sampled
-  radiance += areaLit(p);  //? if area_lobes
-  radiance += unoccluded * environmentIntegral(p);  //? if environment_sampled and occlusion
-  radiance += environmentIntegral(p);               //? elif environment_sampled
-  radiance += unoccluded * environmentRadiance(p);  //? elif environment_light and occlusion
-  radiance += environmentRadiance(p);               //? elif environment_light
-  radiance += unoccluded * sunRadiance(p);  //? if environment_suns and occlusion
-  radiance += sunRadiance(p);               //? elif environment_suns
+#endif
+#endif
+#if AREA_SAMPLED
+  radiance += areaIntegral(p);
+#endif
+#if AREA_LOBES
+  radiance += areaLit(p);
+#endif
+#if ENVIRONMENT_SAMPLED && OCCLUSION
+  radiance += unoccluded * environmentIntegral(p);
+#elif ENVIRONMENT_SAMPLED
+  radiance += environmentIntegral(p);
+#elif ENVIRONMENT_LIGHT && OCCLUSION
+  radiance += unoccluded * environmentRadiance(p);
+#elif ENVIRONMENT_LIGHT
+  radiance += environmentRadiance(p);
+#endif
+#if ENVIRONMENT_SUNS && OCCLUSION
+  radiance += unoccluded * sunRadiance(p);
+#elif ENVIRONMENT_SUNS
+  radiance += sunRadiance(p);
+#endif
   return radiance;
 }
 
 // Base colour = factor * map * vertex colour (glTF 2.0, sections 3.9.2 and 3.7.2.1).
 vec4 baseColor(Footprints f) {
   vec4 color = base_color_factor;
-  color *= fetch(base_color_map, f.base_color);  //? if base_color_variation
-  color *= vertex_color;  //? if vertex_color
+#if BASE_COLOR_VARIATION
+  color *= fetch(base_color_map, f.base_color);
+#endif
+#if VERTEX_COLOR
+  color *= vertex_color;
+#endif
   return color;
 }
 
 Surface surfaceUnder(Footprints f, vec3 base_color) {
   float metallic = dielectric_specular_metallic.w;
-  metallic = fetch(metallic_map, f.roughness).r;  //? if metallic_variation
+#if METALLIC_VARIATION
+  metallic = fetch(metallic_map, f.roughness).r;
+#endif
   vec3 dielectric_specular = dielectric_specular_metallic.rgb;
-  dielectric_specular *= fetch(specular_map, f.specular).rgb;  //? if specular_variation
+#if SPECULAR_VARIATION
+  dielectric_specular *= fetch(specular_map, f.specular).rgb;
+#endif
   return Surface(base_color * (1.0 - metallic), mix(dielectric_specular, base_color, metallic));
 }
 
-//? if emitting
+#if EMITTING
 // The light that a surface emits through its coat (KHR_materials_clearcoat, Emission).
 vec3 emission(Footprints f, SurfacePoint p) {
   vec3 radiance = emitted.rgb;
-  radiance *= fetch(emission_map, f.emission).rgb;  //? if emission_variation
-  return (1.0 - p.coat.share) * radiance;  //? if clear_coat
-  return radiance;                         //? else
+#if EMISSION_VARIATION
+  radiance *= fetch(emission_map, f.emission).rgb;
+#endif
+#if CLEAR_COAT
+  return (1.0 - p.coat.share) * radiance;
+#else
+  return radiance;
+#endif
 }
-//? end
+#endif
 
-//? if alpha_mask
+#if ALPHA_MASK
 // The alpha test cuts out whole pixels, by the mean alpha over the pixel, which is never drawn at random.
 float meanAlpha(Footprints f) {
-//? if filter_shaded
+#if FILTER_SHADED
   float sum = 0.0;
   int parts = probesHere(partCount());
   for (int i = 0; i < parts; ++i) sum += baseColor(partOf(f, i)).a;
   return sum / float(parts);
-//? else
+#else
   return baseColor(f).a;
-//? end
+#endif
 }
-//? end
+#endif
 
 // The radiance of a footprint, times the share of the material.
 vec3 reflectedBy(Footprints f, mat3 frame, vec3 wo) {
-//? if material_index
+#if MATERIAL_INDEX
   float share = fetch(material_share, f.share).r;
   if (share <= 0.0) return vec3(0.0);
-//? end
-  if (lobe_cutoff.z > 0.0) return vec3(0.0);                 //? if unlit and emitting
-  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;  //? elif unlit and material_index
-  if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;          //? elif unlit
-  stretch = stretchUnder(f);  //? if anisotropic_lobe and anisotropy_variation
-//? if clear_coat
+#endif
+#if UNLIT && EMITTING
+  if (lobe_cutoff.z > 0.0) return vec3(0.0);
+#elif UNLIT && MATERIAL_INDEX
+  if (lobe_cutoff.z > 0.0) return share * baseColor(f).rgb;
+#elif UNLIT
+  if (lobe_cutoff.z > 0.0) return baseColor(f).rgb;
+#endif
+#if ANISOTROPIC_LOBE && ANISOTROPY_VARIATION
+  stretch = stretchUnder(f);
+#endif
+#if CLEAR_COAT
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo, coatUnder(f, wo));
-//? else
+#else
   SurfacePoint p = SurfacePoint(effective(f), surfaceUnder(f, baseColor(f).rgb), frame, wo);
-//? end
-  unoccluded = fetch(occlusion_map, f.occlusion).r;  //? if occlusion
+#endif
+#if OCCLUSION
+  unoccluded = fetch(occlusion_map, f.occlusion).r;
+#endif
   vec3 radiance = lit(p);
-  radiance += emission(f, p);  //? if emitting
-  return share * radiance;  //? if material_index
-  return radiance;          //? else
+#if EMITTING
+  radiance += emission(f, p);
+#endif
+#if MATERIAL_INDEX
+  return share * radiance;
+#else
+  return radiance;
+#endif
 }
 
 // The mean over the footprint of the pixel.
 vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
-//? if filter_parts
+#if FILTER_PARTS
   findLight(frame);
   vec3 sum = vec3(0.0);
   int parts = probesHere(partCount());
@@ -250,12 +356,12 @@ vec3 meanReflected(Footprints f, mat3 frame, vec3 wo) {
     sum += reflectedBy(partOf(f, i), frame, wo);
   } while (++i < parts);
   return sum / float(parts);
-//? else
+#else
   return reflectedBy(f, frame, wo);
-//? end
+#endif
 }
 
-//? if sampling_texel
+#if SAMPLING_TEXEL
 // The bilinear filter of radiance: the weighted mean over the texels of a sample. Alpha is that of
 // resolve_samples.glsl: 1 plus the share of invalid texels.
 vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
@@ -276,37 +382,59 @@ vec4 meanOverTexels(Footprints f, mat3 frame, vec3 wo) {
   return vec4(radiance / max(1.0 - invalid, 1e-6), 1.0 + invalid);
 }
 
-//? end
+#endif
 void main() {
   Footprints f = pixelFootprints();
-//? if cast_shadow
+#if CAST_SHADOW
   vec3 along_x = dFdx(world_position);  // before any pixel is discarded
   vec3 along_y = dFdy(world_position);
-//? end
-  mat3 frame = seenFrame(gl_FrontFacing, world_normal, world_tangent);  //? if double_sided
-  mat3 frame = tangentFrame(world_normal, world_tangent);               //? else
-  fetchNeighbourFrames(frame, f);  //? if screen_derivatives
-  drawPoint();  //? if random_draws
-  if (meanAlpha(f) < lobe_cutoff.y) discard;  //? if alpha_mask
-  tangent_to_camera = world_to_camera * frame;  //? if surface_coordinates or screen_derivatives
-  vec3 to_viewer = to_camera;                                    //? if orthographic
-  vec3 to_viewer = normalize(camera_position - world_position);  //? else
-  seen_facet = facetNormal(along_x, along_y, to_viewer);  //? if cast_shadow
-//? if sampling_texel
+#endif
+#if DOUBLE_SIDED
+  mat3 frame = seenFrame(gl_FrontFacing, world_normal, world_tangent);
+#else
+  mat3 frame = tangentFrame(world_normal, world_tangent);
+#endif
+#if SCREEN_DERIVATIVES
+  fetchNeighbourFrames(frame, f);
+#endif
+#if RANDOM_DRAWS
+  drawPoint();
+#endif
+#if ALPHA_MASK
+  if (meanAlpha(f) < lobe_cutoff.y) discard;
+#endif
+#if SURFACE_COORDINATES || SCREEN_DERIVATIVES
+  tangent_to_camera = world_to_camera * frame;
+#endif
+#if ORTHOGRAPHIC
+  vec3 to_viewer = to_camera;
+#else
+  vec3 to_viewer = normalize(camera_position - world_position);
+#endif
+#if CAST_SHADOW
+  seen_facet = facetNormal(along_x, along_y, to_viewer);
+#endif
+#if SAMPLING_TEXEL
   vec4 mean = meanOverTexels(f, frame, to_viewer * frame);
   vec3 radiance = mean.rgb;
   float coverage = mean.a;
-//? else
+#else
   vec3 radiance = meanReflected(f, frame, to_viewer * frame);
-//? if sampling_frame
+#if SAMPLING_FRAME
   float coverage = 1.0;
-//? else
+#else
   float coverage = nothing_to_shade ? 2.0 : 1.0;  // covered, without radiance: resolve_samples.glsl
   if (nothing_to_shade) radiance = vec3(0.0);
-//? end
-//? end
-  radiance = vec3(meanTrips(probe_trips), meanTrips(lobe_trips), meanTrips(walk_trips));  //? if counting_trips
-  radiance = vec3(lookups, lobe_evaluations, finest_area);                                //? elif counting
-  radiance_coverage = vec4(radiance, share_uv_offset_set.w + coverage - 1.0);  //? if material_index
-  radiance_coverage = vec4(radiance, coverage);                                //? else
+#endif
+#endif
+#if COUNTING_TRIPS
+  radiance = vec3(meanTrips(probe_trips), meanTrips(lobe_trips), meanTrips(walk_trips));
+#elif COUNTING
+  radiance = vec3(lookups, lobe_evaluations, finest_area);
+#endif
+#if MATERIAL_INDEX
+  radiance_coverage = vec4(radiance, share_uv_offset_set.w + coverage - 1.0);
+#else
+  radiance_coverage = vec4(radiance, coverage);
+#endif
 }

@@ -1,14 +1,16 @@
 // Punctual lights in the units of KHR_lights_punctual: candela and lux. Counts are uniforms, so one program serves any.
 
-//? if point_light
+#if POINT_LIGHT
 struct PointLight {
   vec4 position_range;  // range 0: unlimited
   vec4 intensity;       // w: the light's first shadow map
 };
 layout(std140, binding = 2) uniform PointLights { PointLight point_lights[point_light_capacity]; };
-uniform int point_light_count;  //? if not fixed_trips
-//? end
-//? if spot_light
+#if !FIXED_TRIPS
+uniform int point_light_count;
+#endif
+#endif
+#if SPOT_LIGHT
 struct SpotLight {
   vec4 position_range;
   vec4 intensity;  // w: as above
@@ -16,21 +18,25 @@ struct SpotLight {
   vec4 cone;  // scale and offset of KHR_lights_punctual's angular attenuation
 };
 layout(std140, binding = 3) uniform SpotLights { SpotLight spot_lights[spot_light_capacity]; };
-uniform int spot_light_count;  //? if not fixed_trips
-//? end
-//? if directional_light
+#if !FIXED_TRIPS
+uniform int spot_light_count;
+#endif
+#endif
+#if DIRECTIONAL_LIGHT
 struct DirectionalLight {
   vec4 to_light;
   vec4 illuminance;  // w: as above
 };
 layout(std140, binding = 4) uniform DirectionalLights { DirectionalLight directional_lights[directional_light_capacity]; };
-uniform int directional_light_count;  //? if not fixed_trips
-//? end
+#if !FIXED_TRIPS
+uniform int directional_light_count;
+#endif
+#endif
 
-//? if area_light
-//? include area_lights.glsl
+#if AREA_LIGHT
+#include "area_lights.glsl"
 
-//? end
+#endif
 // Inverse square falloff, windowed if the light has a range (KHR_lights_punctual).
 float distanceAttenuation(float squared_distance, float range) {
   float falloff = 1.0 / max(squared_distance, 1e-36);
@@ -39,7 +45,7 @@ float distanceAttenuation(float squared_distance, float range) {
   return falloff * clamp(1.0 - ratio * ratio, 0.0, 1.0);
 }
 
-//? if cast_shadow and (point_light or spot_light or directional_light or area_light)
+#if CAST_SHADOW && (POINT_LIGHT || SPOT_LIGHT || DIRECTIONAL_LIGHT || AREA_LIGHT)
 // Large-scale visibility of point, spot and directional lights: shadow maps (docs/explanation/shadows.md).
 struct ShadowView {
   mat4 world_to_map;    // to (u w, v w, linear depth, w)
@@ -68,4 +74,4 @@ float clearOfShadow(float first_view, vec3 point, vec3 n, vec3 from_light) {
   vec4 on_map = shadow_views[view].world_to_map * vec4(point + moved * n, 1.0);
   return texture(shadow_maps, vec4(on_map.xy / on_map.w, float(view), on_map.z));
 }
-//? end
+#endif

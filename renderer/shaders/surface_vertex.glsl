@@ -4,12 +4,16 @@ layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
-layout(location = 5) in vec2 in_surface;  //? if surface_coordinates
-//? if environment_visibility
+#if SURFACE_COORDINATES
+layout(location = 5) in vec2 in_surface;
+#endif
+#if ENVIRONMENT_VISIBILITY
 layout(location = 6) in vec4 in_visibility_weights[4];
 layout(location = 10) in vec4 in_visible_diffuse;
-//? end
-layout(location = 11) in vec4 in_color;  //? if vertex_color
+#endif
+#if VERTEX_COLOR
+layout(location = 11) in vec4 in_color;
+#endif
 
 uniform mat4 world_to_clip;
 
@@ -18,12 +22,16 @@ out vec3 world_normal;
 out vec4 world_tangent;
 out vec2 uv0;
 out vec2 uv1;
-out vec2 surface_uv;  //? if surface_coordinates
-//? if environment_visibility
+#if SURFACE_COORDINATES
+out vec2 surface_uv;
+#endif
+#if ENVIRONMENT_VISIBILITY
 out vec4 visibility_weights[4];
 out vec4 visible_diffuse;
-//? end
-out vec4 vertex_color;  //? if vertex_color
+#endif
+#if VERTEX_COLOR
+out vec4 vertex_color;
+#endif
 
 void main() {
   world_position = in_position;
@@ -31,11 +39,15 @@ void main() {
   world_tangent = in_tangent;
   uv0 = in_uv0;
   uv1 = in_uv1;
-  surface_uv = in_surface;  //? if surface_coordinates
-//? if environment_visibility
+#if SURFACE_COORDINATES
+  surface_uv = in_surface;
+#endif
+#if ENVIRONMENT_VISIBILITY
   visibility_weights = in_visibility_weights;
   visible_diffuse = in_visible_diffuse;
-//? end
-  vertex_color = in_color;  //? if vertex_color
+#endif
+#if VERTEX_COLOR
+  vertex_color = in_color;
+#endif
   gl_Position = world_to_clip * vec4(in_position, 1.0);
 }

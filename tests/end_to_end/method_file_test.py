@@ -10,8 +10,8 @@ from whole_runs import PROGRAM, SOURCE, WholeRunTest, largest_difference, needs_
 
 SMALL = ("--size", "48x48")
 HEAD = '/*\nname = "mine"\nsummary = "A test."\nreads = ["mean_normal"]\nleaves_out = ["environment_light"]\n*/\n'
-BODY = """//? include mean_normal.glsl
-//? include facets_module.glsl
+BODY = """#include "mean_normal.glsl"
+#include "facets_module.glsl"
 Effective effective(Footprints f) {
   float lobe = lobe_cutoff.x;
   return Effective(evenFacets(meanNormal(f).xyz, lobe));
@@ -97,9 +97,18 @@ class MethodFileTest(WholeRunTest):
         self.assertFalse((self.folder / "broken.exr").exists())
         error = self.refused("ndf", "bumps", "--methods", broken, "--quiet", "-o", "broken")
         self.assertIn("./broken.glsl:10: ", error)
-        unknown = self.file(HEAD + "//? if normal_variatio\n//? end\n" + BODY, "unknown.glsl")
+        unknown = self.file(HEAD + "#if NORMAL_VARIATIO\n#endif\n" + BODY, "unknown.glsl")
         error = self.refused("render", "bumps", *SMALL, "--method", unknown, "--quiet", "-o", "broken.exr")
         self.assertIn("./unknown.glsl, line 7: unknown flag", error)
+        former = self.file(HEAD + "//? include mean_normal.glsl if normal_variation\n" + BODY, "former.glsl")
+        error = self.refused("render", "bumps", *SMALL, "--method", former, "--quiet", "-o", "broken.exr")
+        self.assertIn("./former.glsl, line 7: ", error)
+        self.assertIn('write `#if NORMAL_VARIATION`, `#include "mean_normal.glsl"` and `#endif`', error)
+        part = self.file(HEAD + BODY.replace('#include "facets_module.glsl"\n', "struct Effective { Facets facets; };\n"),
+                         "part.glsl")
+        for command in ("render", "bumps", *SMALL, "--method", part), ("ndf", "bumps", "--methods", part):
+            error = self.refused(*command, "--quiet", "-o", "broken.exr")
+            self.assertIn("./part.glsl: does not define `Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo)`", error)
 
     def test_other_commands_take_it(self):
         copy = self.copy_of("toksvig")
@@ -145,8 +154,8 @@ class MethodFileTest(WholeRunTest):
             for word in words:
                 self.assertIn(word, error)
 
-        of(HEAD + "//? include /etc/passwd\n" + BODY, "bad.glsl, line 7", "`/etc/passwd` is not a shader text")
-        of(HEAD + '#include "/etc/passwd"\n' + BODY, "bad.glsl:7")
+        of(HEAD + '#include "/etc/passwd"\n' + BODY, "bad.glsl, line 7", "`/etc/passwd` is not a shader text")
+        of(HEAD + "#include /etc/passwd\n" + BODY, "bad.glsl, line 7", "names no file in quotes")
         of(HEAD + BODY + " " * (300 << 10), "bad.glsl", "262144")
         of(HEAD + "\0" + BODY, "bad.glsl:7", "is not text")
         of(HEAD + "[" * 10000, "bad.glsl")

@@ -70,9 +70,9 @@ def program_with(folder, shader, old, new):
     """A copy of the program in `folder` in which the text of a shader has `new` for `old`, in place of its first comment."""
     text = (SOURCE / shader).read_bytes()
     head = text[:text.find(b"*/\n") + 3] if text.startswith(b"/*") else b""
-    changed = text[len(head):].partition(b"//?")[2]
+    changed = text[len(head):].partition(b"\n#")[2]
     assert old in changed, f"{shader} has no {old}"
-    changed = (head + b"//?" + changed.replace(old, new)).ljust(len(text))
+    changed = (head + b"#" + changed.replace(old, new)).ljust(len(text))
     program = pathlib.Path(PROGRAM).read_bytes()
     assert len(changed) == len(text) and program.count(text) == 1, f"{shader}: no room for {new}, or not in the program"
     path = folder / "program"

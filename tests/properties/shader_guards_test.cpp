@@ -53,10 +53,7 @@ std::string functions_of(NormalDistribution distribution, GeometryTerm geometry 
   variant.brdf = {distribution, geometry, FresnelTerm::schlick, true};
   for (const Effect effect : {Effect::diffuse, Effect::fresnel, Effect::masking_shadowing})
     variant.effects.set(static_cast<std::size_t>(effect));
-  const Options options(
-      {word_option("roughness", {"shading", "stretched", "moments"}, ""), word_option("variant", {"lean", "clean"}, ""),
-       word_option("storage", {"fp32", "fp16", "unorm8"}, ""), word_option("moment", {"total", "corrected"}, "")},
-      {}, "test");
+  const Options options({word_option("moment", {"total", "corrected"}, "")}, {}, "test");
   return "vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, options), module);
 }
 
@@ -190,15 +187,15 @@ std::vector<ShaderGuard> term_guards() {
            {glm::vec4(kappa), up, glm::vec4(1, 0, 0, 0)},
            0.25 * 3.535 / 0.5,
            1e-2},
-          {"no normal at a vertex", "length of at least 1e-20", functions_with("//? include tangent_frame.glsl\n"),
+          {"no normal at a vertex", "length of at least 1e-20", functions_with("#include \"tangent_frame.glsl\"\n"),
            "normal / max(length(normal), 1e-20)", "normal / length(normal)",
            "return vec4(dot(tangentFrame(a.xyz, vec4(1.0, 0.0, 0.0, 1.0))[2], vec3(1.0)));", no_input, 0.0, 0.0},
-          {"no mean normal, 0 / 0", "the surface's own", functions_with("//? include mean_normal.glsl\n"),
+          {"no mean normal, 0 / 0", "the surface's own", functions_with("#include \"mean_normal.glsl\"\n"),
            "size > 1e-6 ? mean / size : vec3(0.0, 0.0, 1.0)", "mean / size", "return vec4(storedMeanNormal(a.xyz).z);",
            no_input, 1.0, 0.0},
           {"equal normals' length in 32 bits",
            "three last places are not a spread",
-           functions_with("//? include length_shortfall.glsl\n"),
+           functions_with("#include \"length_shortfall.glsl\"\n"),
            "if (shortfall <= rounding) return 0.0;\n  return shortfall - rounding * (rounding / shortfall);",
            "return shortfall;",
            "return vec4(shortfallOfLength(a.x, rounding_of_floats));",
@@ -226,7 +223,7 @@ Input rounded_moments() {
 }
 
 std::vector<ShaderGuard> slope_guards() {
-  const std::string slopes = functions_with("//? include common_slopes.glsl\n");
+  const std::string slopes = functions_with("const bool base_in_moments = false;\n#include \"gaussian_slopes.glsl\"\n");
   constexpr std::string_view density = "return vec4(slopeDensity(slopeLobe(vec2(0.0), mat2(a.x), a.x), b.xyz));";
   return {{"M - B B^T of equal slopes", "nearest matrix without a negative eigenvalue", slopes,
            "if (middle >= radius) return mat2(c.x, c.y, c.y, c.z);", "return mat2(c.x, c.y, c.y, c.z);",
@@ -266,7 +263,7 @@ std::vector<ShaderGuard> method_guards() {
   constexpr std::string_view convolution = "return vec4(sgConvolution(vec3(0.0, 0.0, 1.0), a.x, b.xyz, a.x));";
   const ShaderModule iwasaki = iwasaki_sg_method().shader;
   const std::string gaussians =
-      functions_of(vmf, GeometryTerm::none, {"test.glsl", "//? include iwasaki_sg_lobes.glsl\n", iwasaki.folder});
+      functions_of(vmf, GeometryTerm::none, {"test.glsl", "#include \"iwasaki_sg_lobes.glsl\"\n", iwasaki.folder});
   const std::string component =
       part_of(tan_gmm_method().shader, "// A Gaussian over the disc.", "// The height of the hemisphere");
   const std::string recovered = functions_with(component);
@@ -313,7 +310,7 @@ std::string coat_functions() {
     variant.effects.set(static_cast<std::size_t>(effect));
   const ShaderModule module{"test.glsl",
                             "vec4 coat_weight_width;\nuniform sampler2D coat_normal_map;\n"
-                            "//? include clear_coat.glsl\n"};
+                            "#include \"clear_coat.glsl\"\n"};
   return "vec4 lobe_cutoff;\n" + shared_functions(shader_flags(variant, Options({}, {}, "test")), module);
 }
 

@@ -40,6 +40,16 @@ class Documents(unittest.TestCase):
     def test_whole_documents_pass(self):
         self.assertEqual(self.lines_of(), (0, ["4 documents agree"]))
 
+    def test_a_method_that_shared_code_names_is_reported(self):
+        for name, text, mention in (
+                ("renderer/shaders/a.glsl", "// as in `lean`\n", "`lean`"), ("renderer/a.cpp", '"wide_lobe_share"', "wide_lobe_share"),
+                ("renderer/b/a.hpp", "// of wide_lobe\n", "wide_lobe"), ("renderer/a.cpp.in", "see methods/lean", "methods/lean")):
+            with self.subTest(name):
+                lines = self.lines_of(**{"methods/lean/a.cpp": "", "methods/wide_lobe/a.cpp": "", name: text})
+                self.assertEqual(lines, (1, [f"{name}:1: shared code names the method {mention}"]))
+        self.assertEqual(self.lines_of(**{"methods/lean/a.cpp": "", "methods/wide_lobe/a.cpp": "",
+                                          "renderer/a_test.cpp": "wide_lobe", "renderer/a.hpp": "/// as `lean`, which sides lean"})[0], 0)
+
     def test_a_link_to_nothing_is_reported(self):
         lines = self.lines_of(**{"README.md": "\n[gone](docs/gone.md)\n"})
         self.assertEqual(lines, (1, ["README.md:2: docs/gone.md leads nowhere"]))

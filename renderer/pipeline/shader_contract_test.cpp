@@ -105,6 +105,15 @@ TEST(ShaderContract, FollowsTheFlags) {
   EXPECT_EQ(breach(lobes + "vec3 meanNormal(Effective e) { return vec3(0.0); }\n", environment).message(), "");
 }
 
+// The reference alone draws directions; a dense environment is a sum over directional lights.
+TEST(ShaderContract, NoMethodDrawsDirectionsForADenseEnvironment) {
+  ShaderVariant dense = with(Effect::environment_light);
+  dense.environment = EnvironmentUse::dense;
+  EXPECT_EQ(breach(whole, dense).message(), "");
+  dense.environment = EnvironmentUse::sampled;
+  EXPECT_EQ(breach(whole, dense).message(), "does not define `vec3 drawDirection(Effective e, vec3 wo, vec3 u)`");
+}
+
 // Texts that a module includes call functions of it too.
 TEST(ShaderContract, IncludesWhatSharedTextsCallFor) {
   const std::string text = without(

@@ -32,7 +32,7 @@ vec3 meanNormal(Effective e);  // mean of the unit normals, not renormalised
 vec3 environmentSum(Effective e, Surface s, vec3 wo, mat3 frame);
 #endif
 
-#if DIRECTIONS_DRAWN
+#if DIRECTIONS_DRAWN && !ENVIRONMENT_DENSE || AREA_SAMPLED
 vec3 drawDirection(Effective e, vec3 wo, vec3 u);       // from three numbers in [0, 1); zero: none
 float directionDensity(Effective e, vec3 wi, vec3 wo);  // density of drawing wi, 1/sr
 #endif

@@ -9,9 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "renderer/core/embedded_texts.hpp"
 #include "renderer/core/error.hpp"
 
 namespace footprint {
+
+extern const EmbeddedTexts shared_glsl;
+
 namespace {
 
 // The text with comments and lines of directives blank, character for character.
@@ -208,6 +212,28 @@ bool is_wanted(const Function& function, const ShaderText& text) {
   return function.is_prototype && at != nullptr && ShaderText::is_shared(at->file);
 }
 
+// Whether every program needs a function: a line of a shared text that is under no condition declares it.
+bool is_unconditional(const Function& function, const ShaderText& text) {
+  const ShaderText::Origin& at = *text.origin(function.offset);
+  std::string_view lines = find_text(shared_glsl, at.file)->text;
+  int depth = 0;
+  for (int line = 1; line < at.line && !lines.empty(); ++line) {
+    if (lines.starts_with("#if")) ++depth;
+    if (lines.starts_with("#endif")) --depth;
+    lines.remove_prefix(std::min(lines.find('\n'), lines.size() - 1) + 1);
+  }
+  return depth == 0;
+}
+
+// Whether a function is called: its name is before a parenthesis more often than declarations have it.
+bool is_called(const Function& function, const Tokens& tokens, const std::vector<Function>& all) {
+  std::ptrdiff_t uses = 0;
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    if (tokens[i].text == function.name && tokens[i + 1].text == "(") ++uses;
+  }
+  return uses > std::ranges::count(all, function.name, &Function::name);
+}
+
 }  // namespace
 
 void require_definitions(const ShaderText& text, std::string_view module) {
@@ -216,6 +242,7 @@ void require_definitions(const ShaderText& text, std::string_view module) {
   const Functions functions(code, tokens);
   for (const Function& wanted : functions.all()) {
     if (!is_wanted(wanted, text)) continue;
+    if (!is_unconditional(wanted, text) && !is_called(wanted, tokens, functions.all())) continue;
     const Breach breach(text, module, wanted);
     for (const std::string_view type : wanted.types) {
       if (std::isupper(static_cast<unsigned char>(type[0])) != 0 && !has_structure(tokens, type))

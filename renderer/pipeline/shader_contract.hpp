@@ -8,10 +8,10 @@
 namespace footprint {
 
 /// Checks that a stage defines every function that a shared text declares by a prototype, and every structure in those
-/// prototypes. method_contract.glsl declares what a method's module defines; other shared texts declare what their
-/// includers define.
-/// module: the file of the module, for messages.
-/// Throws Error (usage): names the file and the first function or structure that is missing, or differs in its types.
+/// prototypes. A function that is declared under a condition counts only if it is called. method_contract.glsl declares
+/// what a method's module defines; other shared texts declare what their includers define. module: the file of the
+/// module, for messages. Throws Error (usage): names the file and the first function or structure that is missing, or
+/// differs in its types.
 void require_definitions(const ShaderText& text, std::string_view module);
 
 }  // namespace footprint

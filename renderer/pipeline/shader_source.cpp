@@ -180,7 +180,6 @@ ForwardShaders forward_shaders(const ShaderVariant& variant, const TextureUnits&
   fragment.add(units.declarations() + light_capacities(variant) + fixed_trips(variant.fixed_trips, variant.effects));
   fragment.include("surface_lights.glsl");
   add_method_pass(fragment, variant, flags, options, prefiltered, "surface_fragment.glsl");
-  require_definitions(fragment, module.file);
   return {shared_stage("surface_vertex.glsl", flags), std::move(fragment)};
 }
 
@@ -202,7 +201,6 @@ ShaderText ndf_shader(const ShaderVariant& variant, const ShaderModule& module, 
   ShaderText text = module_text(flags, module);
   text.add(TextureUnits(variant.effects, prefiltered).declarations());
   add_method_pass(text, variant, flags, options, prefiltered, "ndf_fragment.glsl");
-  require_definitions(text, module.file);
   return text;
 }
 

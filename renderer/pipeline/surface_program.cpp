@@ -14,6 +14,7 @@
 #include "renderer/pipeline/emitted_light.hpp"
 #include "renderer/pipeline/gpu_scene.hpp"
 #include "renderer/pipeline/sample_sequence.hpp"
+#include "renderer/pipeline/shader_contract.hpp"
 #include "renderer/pipeline/view.hpp"
 
 namespace footprint {
@@ -282,6 +283,7 @@ std::optional<DriverWatch> watch_over(const BakedMethod& baked, std::string_view
 
 gl::Program method_program(const BakedMethod& baked, std::string_view name, std::string_view vertex,
                            const ShaderText& fragment) {
+  require_definitions(fragment, baked.method->shader.file);
   const std::optional<DriverWatch> watch = watch_over(baked, "compile");
   try {
     return {fmt::format("{} ({})", name, fragment.lines()), vertex, fragment.text()};

@@ -48,8 +48,8 @@ TEST(ResultsPage, IsWholeAndAsksForNothingFromTheNetwork) {
 }
 
 nlohmann::json data_of(const std::string& page) {
-  const std::string open = R"(<script type="application/json" id="data">)";
-  const std::size_t begin = page.find(open) + open.size();
+  const std::string element = R"(<script type="application/json" id="data">)";
+  const std::size_t begin = page.find(element) + element.size();
   return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 

@@ -77,6 +77,18 @@ TEST_F(FinishedWorkTest, ARunThatWritesItsFileAgainLeavesTheStoredOne) {
   EXPECT_EQ(text_of(later() / "images/a.png"), "an image");
 }
 
+// The parts of one run: made once, and every time where nothing is kept.
+TEST_F(FinishedWorkTest, KeptPartsAreMadeOnce) {
+  int made = 0;
+  const auto make = [&] { return std::vector<double>{static_cast<double>(++made)}; };
+  const KeptParts kept(&*work_, "0123", run()), others(&*work_, "4567", run()), none(nullptr, "", run());
+  EXPECT_EQ(kept.kept("distance_1", make), figures);
+  EXPECT_EQ(others.kept("distance_1", make), std::vector{1.0});
+  EXPECT_EQ(others.kept("distance_1", make), std::vector{1.0});
+  EXPECT_EQ(none.kept("distance_1", make), std::vector{2.0});
+  EXPECT_EQ(none.kept("distance_1", make), std::vector{3.0});
+}
+
 TEST_F(FinishedWorkTest, AMissingPartIsUnfinished) {
   EXPECT_FALSE(work_->find<std::vector<double>>("0123/distance_2", later()));
   EXPECT_FALSE(work_->find<std::string>(key, later())) << "of another type";

@@ -40,6 +40,25 @@ std::string refusal(const RunSettings& run, const Scene& scene) {
   return "no error";
 }
 
+// Files and messages of different views have different names.
+TEST(RunViews, AreCalledByTheirKind) {
+  RunSettings run;
+  run.view.distances = {1.0, 2.5};
+  const std::vector<PlannedView> distances = plan_views(run, looked_at());
+  EXPECT_EQ(distances[1].words(), "distance 2.5");
+  EXPECT_EQ(distances[1].stem("lean"), "d2.5_lean");
+  EXPECT_EQ(distances[1].at.frame, 0U);
+  const std::vector<PlannedView> frames = plan_views(path_of(AnimationPath::orbit, 3), looked_at());
+  EXPECT_EQ(frames[1].words(), "frame 2 of 3");
+  EXPECT_EQ(frames[1].stem("lean"), "lean_0001");
+  EXPECT_EQ(frames[1].at.frame, 1U);
+  run.view.zoom = {.frames = 3, .from = 1.0, .to = 4.0};
+  const std::vector<PlannedView> zoom = plan_views(run, looked_at());
+  EXPECT_EQ(zoom[1].kind, RunKind::zoom);
+  EXPECT_EQ(zoom[1].stem("lean"), "d2_lean");
+  EXPECT_EQ(zoom[1].at.frame, 1U);
+}
+
 TEST(RunViews, AnOrbitKeepsItsDistanceAndLooksAtTheCentre) {
   RunSettings run = path_of(AnimationPath::orbit, 3);
   run.path.degrees = 90;

@@ -109,13 +109,19 @@ void set_camera(const SceneSettings& settings, const std::optional<Camera>& own,
   }
 }
 
-void set_lights(const SceneSettings& settings, const std::vector<Light>& own, Scene& scene) {
+void set_environment(const EnvironmentSettings& settings, SceneFiles& files, Scene& scene) {
+  if (!files.environment) files.environment = make_environment(settings, files.environment_warnings);
+  scene.environment = files.environment;
+  std::ranges::copy(files.environment_warnings, std::back_inserter(scene.warnings));
+}
+
+void set_lights(const SceneSettings& settings, const std::vector<Light>& own, SceneFiles& files, Scene& scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     if (glm::vec3* const position = position_in(scene.lights[i]))
       *position = glm::vec3(settings.light_positions[i] - scene.origin);
   }
   if (settings.keep_model_lights) scene.lights.insert(scene.lights.begin(), own.begin(), own.end());
-  if (settings.environment) scene.environment = make_environment(*settings.environment, scene.warnings);
+  if (settings.environment) set_environment(*settings.environment, files, scene);
   if (!scene.lights.empty() || scene.environment) return;
   scene.lights = supplied_lights(scene.camera, scene.bounds);
   scene.defaults.emplace_back("lights: a key and a fill directional light and a point light, white at radiance 0.8");
@@ -148,7 +154,7 @@ Scene assemble_scene(const SceneSettings& settings, const std::optional<PlacedBo
   scene.bounds = bounds ? bounds->bounds : bounds_of(scene.meshes);
   require_horizon(settings);
   set_camera(settings, model.camera, scene);
-  set_lights(settings, model.lights, scene);
+  set_lights(settings, model.lights, files, scene);
   return scene;
 }
 

@@ -59,6 +59,8 @@ struct SceneOverrides {
 struct SceneFiles {
   ModelFiles models;
   std::map<std::size_t, Model> still_parts = {};  ///< without a model file, by their number; not placed
+  std::optional<Environment> environment = {};
+  std::vector<std::string> environment_warnings = {};
 };
 
 /// Assembles the scene. Throws errors of its files, which name the settings' file.

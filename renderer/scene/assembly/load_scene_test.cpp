@@ -198,6 +198,26 @@ TEST(LoadScene, ScenesWithoutATriangleSayWhy) {
   EXPECT_TRUE(test::says(error_of(lines), "lines"));
 }
 
+// Maps of a plane and an environment, which do not move.
+TEST(LoadScene, WhatWasReadIsNotReadAgain) {
+  const Image normals(2, 2, 3, 0.5F);
+  const auto map = test::process_folder() / "made/flat.png", around = test::process_folder() / "made/around.exr";
+  const auto file =
+      test::write_file("made/still.toml", "[plane]\nnormal_map = \"flat.png\"\n[environment]\nfile = \"around.exr\"\n");
+  write_png(map, normals);
+  write_exr(around, Image(2, 1, 3, 0.5F));
+  const SceneSource source = read_scene(file.string(), {});
+  SceneFiles files;
+  const Scene first = assemble(source, files);
+  std::filesystem::remove(map);
+  std::filesystem::remove(around);
+  const Scene again = assemble(source, files);
+  EXPECT_EQ(again.materials.at(0).normal_map->image, first.materials.at(0).normal_map->image);
+  EXPECT_EQ(again.environment->radiance, first.environment->radiance);
+  EXPECT_EQ(again.warnings, first.warnings);
+  EXPECT_NE(test::usage_error([&] { return assemble(source); }).find("flat.png"), std::string::npos);
+}
+
 TEST(LoadScene, BrokenMapsOfAPlaneAreNamed) {
   test::write_file("made/words.png", "no image");
   for (const char* name : {"missing.png", "words.png"}) {

@@ -68,7 +68,7 @@ class Workbench {
     require_pictures(frame_size(scene(), settings.view.size), images_at_once(settings));
   }
 
-  // As it was loaded, or as the stage has it.
+  // The scene as it was loaded, and from the first image on as the stage has it.
   [[nodiscard]] const Scene& scene() const {
     if (tools_) return tools_->stage.scene();
     return context_.shared != nullptr ? context_.shared->scene->scene : scene_;

@@ -103,14 +103,14 @@ class KeptParts {
   KeptParts(const FinishedWork* work, std::string run, RunFolder folder)
       : work_(work), run_(std::move(run)), folder_(std::move(folder)) {}
 
-  /// As FinishedWork::find.
+  /// Finds a part (FinishedWork::find).
   template <class T>
   [[nodiscard]] std::optional<T> find(const std::string& part) const {
     if (work_ == nullptr) return {};
     return work_->find<T>(key_of(part), folder_);
   }
 
-  /// As FinishedWork::store; a part that cannot be stored is a loss of the folder.
+  /// Stores a part (FinishedWork::store); one that cannot be stored is a loss of the folder.
   template <class T>
   void store(const std::string& part, const T& value, const std::vector<std::string>& files = {}) const {
     if (work_ != nullptr) folder_.attempt(part, [&] { work_->store(key_of(part), value, folder_.path(), files); });

@@ -163,7 +163,7 @@ std::pair<Image, Record> measure_method(const Stage& stage, MethodTools& tools, 
   return {std::move(image), std::move(record)};
 }
 
-// The same, or a record that has the reason of the failure and no image.
+// Renders and measures a method; one that fails leaves a record with the reason, and no image.
 std::pair<Image, Record> measure_or_fail(const Stage& stage, MethodTools& tools, std::size_t index,
                                          const Reference& target, const MethodsWanted& wanted,
                                          const Progress& progress) {

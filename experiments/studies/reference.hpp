@@ -103,7 +103,7 @@ struct ReferenceWanted {
   bool by_material = false;  ///< separate the materials' pixels
   float exposure = 1;
 
-  /// The same without what only the records of its own view need: supersampling's curve, and other references.
+  /// A copy without what only the records of its own view need: supersampling's curve, and other references.
   [[nodiscard]] ReferenceWanted for_flicker() const;
 };
 

@@ -21,10 +21,10 @@ namespace footprint {
 /// looks like the one before.
 [[nodiscard]] std::vector<double> zoom_distances(double from, double to, int frames);
 
-/// Those of a run that are known without its scene; empty: the scene decides.
+/// The distances of a run that are known without its scene; empty: the scene decides.
 [[nodiscard]] std::vector<double> given_distances(const ViewSettings& view);
 
-/// Those of a run over `scene`, one or more. Errors (usage): a zoom that ends where it starts.
+/// The distances of a run over `scene`, one or more. Errors (usage): a zoom that ends where it starts.
 [[nodiscard]] std::vector<double> run_distances(const ViewSettings& view, const Scene& scene);
 
 /// One view of the scene.

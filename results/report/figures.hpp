@@ -17,7 +17,7 @@ namespace footprint {
 /// An error between 0 and 1: five decimals, or two figures and an exponent where those would hide it.
 [[nodiscard]] std::string error_text(double error);
 
-/// The same of an error that there may not be: "n/a" without one.
+/// Overload for an optional error: "n/a" without one.
 [[nodiscard]] std::string error_text(const std::optional<double>& error);
 
 /// "at most 9 frames of each method in one process, in turn"

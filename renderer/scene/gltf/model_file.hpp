@@ -18,7 +18,7 @@ struct GltfModelFile {
   std::vector<std::string> warnings = {};      ///< of all loads: those of maps come when they are decoded
 };
 
-/// As load_gltf of the file's path. Decodes the maps that no load before decoded.
+/// Loads the file again, as load_gltf of its path does. Decodes only maps that no load before decoded.
 [[nodiscard]] Model load_gltf(GltfModelFile& file, const ModelSelection& selection);
 
 }  // namespace footprint

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,8 @@ namespace footprint {
 namespace {
 
 constexpr const char* schema = "footprint-part/1";
-constexpr auto part_kinds = own_words<PartKind::experiment, PartKind::animation, PartKind::region>;
+constexpr auto part_kinds = std::to_array<Word<PartKind>>(
+    {{PartKind::experiment, "experiment"}, {PartKind::animation, "animation"}, {PartKind::region, "region"}});
 constexpr int most_shards = 100000;
 constexpr int most_processes = 64, most_tile = 1 << 16;  // as the options of a run have them
 

@@ -56,8 +56,10 @@ enum class AnimationPath {
 };
 
 /// As users write it.
-inline constexpr auto animation_paths =
-    own_words<AnimationPath::zoom, AnimationPath::orbit, AnimationPath::light, AnimationPath::animation>;
+inline constexpr auto animation_paths = std::to_array<Word<AnimationPath>>({{AnimationPath::zoom, "zoom"},
+                                                                            {AnimationPath::orbit, "orbit"},
+                                                                            {AnimationPath::light, "light"},
+                                                                            {AnimationPath::animation, "animation"}});
 constexpr const auto& words_of(AnimationPath /*path*/) { return animation_paths; }
 
 /// The path of an animation. ZoomSettings has the number of frames and the ends of a zoom.

@@ -22,8 +22,12 @@
 namespace footprint {
 namespace {
 
-constexpr auto storages =
-    own_words<Storage::fp32, Storage::fp16, Storage::unorm8, Storage::bc1, Storage::bc4, Storage::bc5>;
+constexpr auto storages = std::to_array<Word<Storage>>({{Storage::fp32, "fp32"},
+                                                        {Storage::fp16, "fp16"},
+                                                        {Storage::unorm8, "unorm8"},
+                                                        {Storage::bc1, "bc1"},
+                                                        {Storage::bc4, "bc4"},
+                                                        {Storage::bc5, "bc5"}});
 constexpr float largest_half = 65504.0F;
 
 // Rounds to nearest, because the driver's own conversion truncates.

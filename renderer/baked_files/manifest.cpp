@@ -23,7 +23,10 @@ constexpr std::array<Word<TextureFilter>, 4> filters{{{TextureFilter::trilinear,
                                                       {TextureFilter::nearest, "nearest"},
                                                       {TextureFilter::linear, "linear"},
                                                       {TextureFilter::by_level, "linear"}}};
-constexpr auto geometries = own_words<GeometryTerm::none, GeometryTerm::tan, GeometryTerm::ward, GeometryTerm::smith>;
+constexpr auto geometries = std::to_array<Word<GeometryTerm>>({{GeometryTerm::none, "none"},
+                                                               {GeometryTerm::tan, "tan"},
+                                                               {GeometryTerm::ward, "ward"},
+                                                               {GeometryTerm::smith, "smith"}});
 
 Json brdf_json(const BaseBrdf& brdf) {
   const std::string lobe = lobe_text({brdf.distribution, 1.0});

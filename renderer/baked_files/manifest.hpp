@@ -1,6 +1,7 @@
 // What is read of a manifest of `footprint bake`, and the words that its writer and its reader share.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -17,9 +18,12 @@ namespace footprint {
 
 inline constexpr const char* manifest_schema = "footprint-bake/1";
 
-inline constexpr auto manifest_wraps = own_words<Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge>;
-inline constexpr auto manifest_lookups =
-    own_words<TextureFilter::trilinear, TextureFilter::nearest, TextureFilter::linear, TextureFilter::by_level>;
+inline constexpr auto manifest_wraps = std::to_array<Word<Wrap>>(
+    {{Wrap::repeat, "repeat"}, {Wrap::mirrored_repeat, "mirrored_repeat"}, {Wrap::clamp_to_edge, "clamp_to_edge"}});
+inline constexpr auto manifest_lookups = std::to_array<Word<TextureFilter>>({{TextureFilter::trilinear, "trilinear"},
+                                                                             {TextureFilter::nearest, "nearest"},
+                                                                             {TextureFilter::linear, "linear"},
+                                                                             {TextureFilter::by_level, "by_level"}});
 
 /// A text or a number of JSON as a text; a number is written in one way.
 template <class Json>

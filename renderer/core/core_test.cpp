@@ -1,6 +1,7 @@
 // Errors, suggestions, options, content hashes, interrupts and the processor.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <functional>
@@ -109,14 +110,6 @@ TEST(Suggestion, ListsTheFirstOfMany) {
 // --- names.hpp: words
 
 constexpr std::array<Word<int>, 3> sizes{{{10, "small"}, {20, "medium"}, {30, "large"}}};
-
-enum class Finish { matt, semi_gloss };
-
-TEST(Words, OfEnumeratorsAreTheirNames) {
-  constexpr auto finishes = own_words<Finish::semi_gloss, Finish::matt>;
-  EXPECT_EQ(word_names(finishes), (std::vector<std::string>{"semi_gloss", "matt"}));
-  EXPECT_EQ(word_for(finishes, Finish::matt), "matt");
-}
 
 TEST(Words, StandForTheirValues) {
   EXPECT_EQ(word_names(sizes), (std::vector<std::string>{"small", "medium", "large"}));

@@ -28,25 +28,12 @@ namespace footprint {
 [[nodiscard]] std::size_t find_word(std::span<const std::string> known, std::string_view word, std::string_view what,
                                     std::string_view place);
 
-/// A word for a value.
+/// A word for a value. Tables write out each word beside its value, so that a renamed enumerator keeps its word.
 template <class Value>
 struct Word {
   Value value;
   std::string_view name;
 };
-
-/// The name of an enumerator in C++.
-template <auto enumerator>
-[[nodiscard]] constexpr std::string_view enumerator_name() {
-  const std::string_view text = __PRETTY_FUNCTION__;  // "... [with auto enumerator = footprint::Wrap::repeat; ..."
-  const std::size_t end = text.find_first_of(";]", text.find("enumerator = "));
-  const std::size_t start = text.rfind(':', end) + 1;
-  return text.substr(start, end - start);
-}
-
-/// The enumerators with their own names.
-template <auto... enumerators>
-inline constexpr std::array own_words{Word<decltype(enumerators)>{enumerators, enumerator_name<enumerators>()}...};
 
 /// The words of a table, in its order.
 template <class Value, std::size_t count>

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -17,11 +18,42 @@
 namespace footprint {
 namespace {
 
-template <std::size_t... numbers>
-constexpr auto names_of(std::index_sequence<numbers...> /*all*/) {
-  return std::array{enumerator_name<static_cast<Effect>(numbers)>()...};
-}
-constexpr auto names = names_of(std::make_index_sequence<effect_count>());
+constexpr auto effect_words = std::to_array<Word<Effect>>({
+    {Effect::diffuse, "diffuse"},
+    {Effect::fresnel, "fresnel"},
+    {Effect::masking_shadowing, "masking_shadowing"},
+    {Effect::normal_variation, "normal_variation"},
+    {Effect::normal_layers, "normal_layers"},
+    {Effect::roughness_variation, "roughness_variation"},
+    {Effect::multi_lobe, "multi_lobe"},
+    {Effect::anisotropic_lobe, "anisotropic_lobe"},
+    {Effect::anisotropy_variation, "anisotropy_variation"},
+    {Effect::base_color_variation, "base_color_variation"},
+    {Effect::vertex_color, "vertex_color"},
+    {Effect::metallic_variation, "metallic_variation"},
+    {Effect::specular_variation, "specular_variation"},
+    {Effect::clear_coat, "clear_coat"},
+    {Effect::coat_weight_variation, "coat_weight_variation"},
+    {Effect::coat_width_variation, "coat_width_variation"},
+    {Effect::coat_normal_variation, "coat_normal_variation"},
+    {Effect::material_index, "material_index"},
+    {Effect::alpha_mask, "alpha_mask"},
+    {Effect::double_sided, "double_sided"},
+    {Effect::unlit, "unlit"},
+    {Effect::emission, "emission"},
+    {Effect::emission_variation, "emission_variation"},
+    {Effect::occlusion, "occlusion"},
+    {Effect::point_light, "point_light"},
+    {Effect::spot_light, "spot_light"},
+    {Effect::directional_light, "directional_light"},
+    {Effect::area_light, "area_light"},
+    {Effect::cast_shadow, "cast_shadow"},
+    {Effect::environment_light, "environment_light"},
+    {Effect::microgeometry_visibility, "microgeometry_visibility"},
+    {Effect::microgeometry_colour, "microgeometry_colour"},
+    {Effect::tabulated_brdf, "tabulated_brdf"},
+});
+static_assert(std::ranges::equal(effect_words, all_effects(), {}, &Word<Effect>::value), "a word per effect, in order");
 
 // Smaller than a step of an 8-bit map, and larger than rounding in 32 bits.
 constexpr float constant_tolerance = 1e-5F;
@@ -218,7 +250,7 @@ EffectDecision cast_shadow(const Scene& scene) {
 
 }  // namespace
 
-std::string_view effect_name(Effect effect) { return names.at(static_cast<std::size_t>(effect)); }
+std::string_view effect_name(Effect effect) { return effect_words.at(static_cast<std::size_t>(effect)).name; }
 
 std::vector<EffectDecision> derive_effects(const Scene& scene) {
   std::vector<EffectDecision> decisions{normals(Effect::normal_variation, scene, &Material::normal_map, "normal map"),

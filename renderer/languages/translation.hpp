@@ -19,8 +19,11 @@ enum class ShaderLanguage {
   spirv,  ///< 1.3, for Vulkan: binary
 };
 
-inline constexpr auto shader_languages = own_words<ShaderLanguage::glsl, ShaderLanguage::essl, ShaderLanguage::hlsl,
-                                                   ShaderLanguage::msl, ShaderLanguage::spirv>;
+inline constexpr auto shader_languages = std::to_array<Word<ShaderLanguage>>({{ShaderLanguage::glsl, "glsl"},
+                                                                              {ShaderLanguage::essl, "essl"},
+                                                                              {ShaderLanguage::hlsl, "hlsl"},
+                                                                              {ShaderLanguage::msl, "msl"},
+                                                                              {ShaderLanguage::spirv, "spirv"}});
 
 /// The extension of a file: "spv" for SPIR-V, else the language's name.
 [[nodiscard]] inline std::string file_extension(ShaderLanguage language) {

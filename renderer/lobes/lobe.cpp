@@ -24,8 +24,11 @@ constexpr float smallest_concentration = 1e-6F;
 constexpr float largest_exponent = 2e6F;
 constexpr float smallest_variance = 1e-12F;
 
-constexpr auto distributions = own_words<NormalDistribution::blinn_phong, NormalDistribution::beckmann,
-                                         NormalDistribution::ggx, NormalDistribution::vmf>;
+constexpr auto distributions =
+    std::to_array<Word<NormalDistribution>>({{NormalDistribution::blinn_phong, "blinn_phong"},
+                                             {NormalDistribution::beckmann, "beckmann"},
+                                             {NormalDistribution::ggx, "ggx"},
+                                             {NormalDistribution::vmf, "vmf"}});
 
 bool is_alpha(NormalDistribution distribution) { return distribution == beckmann || distribution == ggx; }
 

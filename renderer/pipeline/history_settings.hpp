@@ -1,6 +1,8 @@
 // How frames are accumulated over time (docs/explanation/temporal.md).
 #pragma once
 
+#include <array>
+
 #include "renderer/core/names.hpp"
 
 namespace footprint {
@@ -12,7 +14,8 @@ enum class HistoryClamp {
   variance  ///< their range, and one deviation from their mean
 };
 
-inline constexpr auto history_clamps = own_words<HistoryClamp::off, HistoryClamp::box, HistoryClamp::variance>;
+inline constexpr auto history_clamps = std::to_array<Word<HistoryClamp>>(
+    {{HistoryClamp::off, "off"}, {HistoryClamp::box, "box"}, {HistoryClamp::variance, "variance"}});
 constexpr const auto& words_of(HistoryClamp /*clamp*/) { return history_clamps; }
 
 struct HistorySettings {

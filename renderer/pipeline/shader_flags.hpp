@@ -25,7 +25,8 @@ enum class Sampling {
 };
 
 /// Those of the reference.
-inline constexpr auto reference_filters = own_words<Sampling::after_shading, Sampling::nearest, Sampling::bilinear>;
+inline constexpr auto reference_filters = std::to_array<Word<Sampling>>(
+    {{Sampling::after_shading, "after_shading"}, {Sampling::nearest, "nearest"}, {Sampling::bilinear, "bilinear"}});
 
 /// How a program integrates the light of an environment.
 enum class EnvironmentUse {
@@ -35,7 +36,8 @@ enum class EnvironmentUse {
 };
 
 /// How the reference integrates.
-inline constexpr auto reference_integrals = own_words<EnvironmentUse::sampled, EnvironmentUse::dense>;
+inline constexpr auto reference_integrals =
+    std::to_array<Word<EnvironmentUse>>({{EnvironmentUse::sampled, "sampled"}, {EnvironmentUse::dense, "dense"}});
 
 /// The figures that a program writes instead of radiance.
 enum class Counting {

@@ -26,7 +26,8 @@ constexpr double lowest_axis = 1e-3;  // half of a lobe on the horizon would be 
 
 const std::vector<std::string> surface_keys{"name", "resolution", "seed", "parameters"};
 
-constexpr auto normal_channels = own_words<NormalChannels::xyz, NormalChannels::xy>;
+constexpr auto normal_channels =
+    std::to_array<Word<NormalChannels>>({{NormalChannels::xyz, "xyz"}, {NormalChannels::xy, "xy"}});
 
 ModelSettings read_model(const TomlTable& table, const std::filesystem::path& folder) {
   return {.candidates = read_candidates(table, folder, "name the model file to draw"),
@@ -39,7 +40,8 @@ ModelSettings read_model(const TomlTable& table, const std::filesystem::path& fo
                         .time = table.number("time", {-largest_seconds, largest_seconds})}};
 }
 
-constexpr auto height_wraps = own_words<Wrap::repeat, Wrap::clamp_to_edge>;
+constexpr auto height_wraps =
+    std::to_array<Word<Wrap>>({{Wrap::repeat, "repeat"}, {Wrap::clamp_to_edge, "clamp_to_edge"}});
 
 // A file of heights. Its scale is required, because heights range over four powers of ten.
 NormalFile read_heights(const TomlTable& table, const std::filesystem::path& folder) {

@@ -29,7 +29,8 @@ enum class SlopeFilter {
   scharr,   ///< rows weighted 3, 10, 3
 };
 
-inline constexpr auto slope_filters = own_words<SlopeFilter::central, SlopeFilter::sobel, SlopeFilter::scharr>;
+inline constexpr auto slope_filters = std::to_array<Word<SlopeFilter>>(
+    {{SlopeFilter::central, "central"}, {SlopeFilter::sobel, "sobel"}, {SlopeFilter::scharr, "scharr"}});
 
 /// How heights become slopes.
 struct HeightSettings {

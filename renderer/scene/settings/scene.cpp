@@ -63,7 +63,7 @@ constexpr NumberRange shadow_resolution{smallest_shadow_map, largest_shadow_map}
 // Whether a one-sided triangle also blocks light from behind.
 constexpr std::array<Word<bool>, 2> shadow_sides{{{false, "drawn"}, {true, "both"}}};
 
-constexpr auto horizons = own_words<Horizon::cut, Horizon::open>;
+constexpr auto horizons = std::to_array<Word<Horizon>>({{Horizon::cut, "cut"}, {Horizon::open, "open"}});
 
 const std::vector<std::string> light_types{"point", "spot", "directional", "rectangle", "disk"};
 
@@ -75,7 +75,8 @@ const std::vector<std::vector<std::string>> light_keys{
     {"position", "direction", "up", "size", "integral", "points"},
     {"position", "direction", "radius", "integral", "points"}};
 
-constexpr auto area_integrals = own_words<AreaIntegral::lobes, AreaIntegral::points>;
+constexpr auto area_integrals =
+    std::to_array<Word<AreaIntegral>>({{AreaIntegral::lobes, "lobes"}, {AreaIntegral::points, "points"}});
 constexpr NumberRange area_size{0.0, 1e6};  // metres
 
 float radians(double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180.0); }

@@ -54,7 +54,7 @@ void animate_part(const AnimateArguments& arguments, const RunSettings& settings
     throw Error(ErrorKind::usage, "--video", "a film cannot be made of a part",
                 "merge the parts, then run this without --shard over the merged folder: it reuses the frames");
   const Shard shard = parse_shard(arguments.shard);
-  const FinishedWork finished = finished_work_of(settings, arguments.output);
+  const FinishedWork finished = finished_work_in(arguments.output, settings.backend.context, settings.output.fresh);
   make_part(shard, arguments.output, finished, [&]() -> PartFile {
     ProgressDisplay display(progress_style(arguments.quiet));
     const OutputFolder scratch(arguments.output);  // never moved to its place
@@ -135,7 +135,7 @@ void run_animate(const AnimateArguments& arguments) {
   const RunSettings settings = settings_of(arguments);
   if (!arguments.shard.empty()) return animate_part(arguments, settings);
   const fs::path ffmpeg = settings.output.video ? find_ffmpeg() : fs::path();
-  const FinishedWork finished = finished_work_of(settings, arguments.output);
+  const FinishedWork finished = finished_work_in(arguments.output, settings.backend.context, settings.output.fresh);
   ProgressDisplay display(progress_style(arguments.quiet));
   write_and_print_animation(arguments.output, [&](const RunFolder& folder) {
     ProgressParts parts(display.callback(), 20);

@@ -159,7 +159,7 @@ void run_bake(const BakeArguments& arguments) {
         slopes ? scene_of_slopes(run.scene, *slopes) : load_scene(run.scene, run.scene_library, run.overrides);
     require_one_lookup(footprint_filter_of(run.footprint, scene), "bake");
     const EffectSet effects = effects_on(derive_effects(scene));
-    BakedMethod baked = bake_first(run, scene, effects, display.callback());
+    BakedMethod baked = bake_by_cache(run.cache, run.methods.front(), scene, effects, display.callback());
     if (slopes) take_slopes(*slopes, baked);
     if (waits_for_build(baked)) take_built_maps(gl::Context(run.backend.context), scene, effects, baked);
     const BakeToFiles bake{.scene = scene,

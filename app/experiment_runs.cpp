@@ -270,11 +270,11 @@ void write_reuse(const FinishedWork& finished, bool quiet) {
                               finished.reused(), finished.folder().string()));
 }
 
-FinishedWork finished_work_of(const RunSettings& run, const fs::path& output) {
-  const gl::Context context(run.backend.context);
+FinishedWork finished_work_in(const fs::path& output, const gl::ContextRequest& request, bool fresh) {
+  const gl::Context context(request);
   FinishedWork finished(finished_work_folder(output),
                         maker_of_work(fmt::format("{} {}", context.info().renderer, context.info().version)));
-  if (run.output.fresh) finished.clear();
+  if (fresh) finished.clear();
   return finished;
 }
 

@@ -12,6 +12,7 @@
 #include "experiments/studies/finished_work.hpp"
 #include "renderer/core/error.hpp"
 #include "renderer/core/files.hpp"
+#include "renderer/gl/context.hpp"
 #include "results/report/records.hpp"
 
 namespace footprint {
@@ -57,9 +58,11 @@ struct RequestedExperiments {
 /// Unless `quiet`, a message on the parts of an earlier run that were reused, with the option to measure again.
 void write_reuse(const FinishedWork& finished, bool quiet);
 
-/// The finished work of a run with these settings below its output folder.
-/// run: `output.fresh` discards that of earlier runs. Errors (machine): no OpenGL.
-[[nodiscard]] FinishedWork finished_work_of(const RunSettings& run, const std::filesystem::path& output);
+/// The finished work of a run below its output folder.
+/// context: of the run, because work of another renderer is not reused.
+/// fresh: discards the work of earlier runs. Errors (machine): no OpenGL.
+[[nodiscard]] FinishedWork finished_work_in(const std::filesystem::path& output, const gl::ContextRequest& context,
+                                            bool fresh);
 
 /// The receivers of results.
 struct RunListener {

@@ -72,14 +72,15 @@ struct Variant {
   StagedMethod method;
 };
 
-Variant make_variant(const Stage& stage, const RunSettings& run, const EffectSet& effects, const glm::ivec2& size,
-                     const Progress& progress) {
+Variant make_variant(const Stage& stage, const EffectSet& effects, const View& view, int tile,
+                     const WorkFolders& folders, const Progress& progress) {
   const gl::ContextInfo& context = stage.context().info();
   auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
-  const StagedFrames wanted{.spec = run.methods.front(), .filter = footprint_filter_of(run.footprint, stage.scene())};
+  const StagedMethod& whole = stage.methods().front();
+  const StagedFrames wanted{.spec = whole.spec(), .filter = whole.filter()};
   StagedMethod method(context, *scene, stage.scene(),
-                      prepared_method(*scene, stage.scene(), effects, wanted.spec, run, no_progress), wanted, size,
-                      run.backend.tile);
+                      prepared_method(*scene, stage.scene(), effects, wanted.spec, folders, no_progress), wanted,
+                      view.size, tile);
   return {std::move(scene), std::move(method)};
 }
 
@@ -96,7 +97,7 @@ Json measure_effect_costs(const Stage& stage, const RunSettings& run, const Prog
     const EffectSet remaining = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
     const Progress preparing = parts.next(1, "preparing: ");
     preparing(effect_name(effect), 0.0);
-    variants.push_back(make_variant(stage, run, remaining, view.size, preparing));
+    variants.push_back(make_variant(stage, remaining, view, run.backend.tile, work_folders(run), preparing));
   }
   std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
   for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });

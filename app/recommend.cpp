@@ -130,7 +130,8 @@ void run_recommend_command(const RecommendArguments& arguments) {
   if (!settings.run.gpus.empty()) require_compilers("--max-cost");
   warn_without_captions();
   ProgressDisplay display(progress_style(arguments.quiet));
-  const FinishedWork finished = finished_work_of(settings.run, arguments.output);
+  const FinishedWork finished =
+      finished_work_in(arguments.output, settings.run.backend.context, settings.run.output.fresh);
   const auto [result, path, lost] = write_whole(arguments.output, [&](OutputFolder& folder) {
     const RecommendListener listener{
         .results =

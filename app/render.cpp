@@ -42,8 +42,8 @@ double distance_factor(double given, const std::optional<std::size_t>& frame, co
               fmt::format("the scene's zoom path has frames 0 to {}", scene.distances.size() - 1));
 }
 
-Image render_picture(const Stage& stage, double distance, const RunSettings& run, const Progress& progress) {
-  const ReferenceSettings& reference = run.reference;
+Image render_picture(const Stage& stage, double distance, const ReferenceSettings& reference,
+                     const Progress& progress) {
   const View view = stage.view(distance);
   Image picture = stage.methods().empty() ? stage.reference().render(view, reference.spp, reference.seed, progress).mean
                                           : image_of(stage.methods().front(), view);
@@ -51,9 +51,10 @@ Image render_picture(const Stage& stage, double distance, const RunSettings& run
   return picture;
 }
 
-void save_picture(const std::filesystem::path& path, const Image& picture, const RunSettings& run, const Scene& scene) {
+void save_picture(const std::filesystem::path& path, const Image& picture, const std::optional<Exposure>& exposure,
+                  const Scene& scene) {
   if (lower_extension(path) == ".exr") return write_exr(path, picture);
-  write_png(path, to_display(picture, choose_exposure(run.view.exposure, scene, picture).factor));
+  write_png(path, to_display(picture, choose_exposure(exposure, scene, picture).factor));
 }
 
 // The settings of the stage, which always has the reference and does not take it as a method. Options of the reference
@@ -83,9 +84,9 @@ void run_render(const RenderArguments& arguments) {
   ProgressParts parts(display.callback(), 3);
   const Stage stage(std::move(scene), run, parts.next(1, ""),
                     {.pictures = run.methods.empty() ? reference_pictures : pictures_of_a_frame});
-  const Image picture = render_picture(stage, distance, run, parts.next(2, ""));
+  const Image picture = render_picture(stage, distance, run.reference, parts.next(2, ""));
   throw_if_interrupted();
-  save_picture(path, picture, run, stage.scene());
+  save_picture(path, picture, run.view.exposure, stage.scene());
   display.finish();
   write_scene_notes(stage.scene(), arguments.quiet);
   write_output(fmt::format("{}\n", path.string()));

@@ -118,7 +118,8 @@ void take_times(const ExperimentArguments& arguments) {
 std::optional<Error> run_all(const ExperimentArguments& arguments, const RunListener& listener) {
   const RequestedExperiments experiments = requested(arguments);
   warn_without_captions();
-  const FinishedWork finished = finished_work_of(experiments.first().run, arguments.output);
+  const FinishedWork finished =
+      finished_work_in(arguments.output, experiments.first().run.backend.context, experiments.first().run.output.fresh);
   std::optional<Error> failed = run_and_print(experiments, arguments.output, finished, arguments.quiet, listener);
   write_reuse(finished, arguments.quiet);
   return failed;
@@ -128,7 +129,7 @@ void run_shard(const ExperimentArguments& arguments) {
   const Shard shard = parse_shard(arguments.shard);
   const RequestedExperiments experiments = requested(arguments);
   const RunSettings& run = experiments.first().run;
-  const FinishedWork finished = finished_work_of(run, arguments.output);
+  const FinishedWork finished = finished_work_in(arguments.output, run.backend.context, run.output.fresh);
   make_part(shard, arguments.output, finished, [&]() -> PartFile {
     run_part(experiments, shard, arguments.output, finished, arguments.quiet);
     return {.kind = arguments.region ? PartKind::region : PartKind::experiment,

@@ -63,7 +63,7 @@ void run_shader(const ShaderArguments& arguments) {
   const EffectSet effects = effects_on(derive_effects(scene));
   const FootprintFilter footprint = footprint_filter_of(run.footprint, scene);
   require_one_lookup(footprint, "shader");
-  const BakedMethod baked = bake_first(run, scene, effects, display.callback());
+  const BakedMethod baked = bake_by_cache(run.cache, run.methods.front(), scene, effects, display.callback());
   display.finish();
   write_scene_notes(scene, arguments.quiet);
   write_shader(

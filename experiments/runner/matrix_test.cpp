@@ -100,7 +100,7 @@ TEST_F(MatrixFile, HistoriesAreOptionsOfMethods) {
   ASSERT_EQ(texts_of(experiment.run.methods), expected);
   const HistorySettings history = history_of(experiment.run.methods[1], experiment.run.history);
   EXPECT_EQ(history, (HistorySettings{.frames = 24, .alpha = 0.2, .clamp = HistoryClamp::box}));
-  EXPECT_EQ(count_histories(experiment.run), 1U);
+  EXPECT_EQ(count_histories(experiment.run.methods, experiment.run.history), 1U);
   expect_complaint(no_scene + "scene = \"bumps\"\n[matrix.options]\ndirect = { history = [-1] }\n",
                    "mine.toml:", "history of method direct");
 }

@@ -70,12 +70,13 @@ struct PathSettings {
   std::optional<double> until;        ///< seconds of an animation at its last frame; none: its last key
 };
 
-/// The view of the scene.
+/// The views of the scene.
 struct ViewSettings {
   std::optional<glm::ivec2> size;        ///< pixels; none: the scene's own, else 512 wide in the camera's aspect ratio
   std::optional<glm::ivec2> quick_size;  ///< of a quick run; none: a quarter of `size`
   std::vector<double> distances;         ///< factors on the camera's distance; empty: the scene's zoom path
   ZoomSettings zoom;                     ///< instead of `distances`; flicker is measured between its frames
+  PathSettings path;                     ///< of an animation
   std::optional<Exposure> exposure;      ///< none: the scene's own, else automatic
   /// The error at the top of the scale of every error image, to compare several runs; none: derived from the run.
   std::optional<double> error_scale;
@@ -150,7 +151,6 @@ struct RunSettings {
   bool by_material = false;                    ///< also measure errors by material
   EffectSet without;                           ///< effects that every method and the reference leave out
   ViewSettings view;
-  PathSettings path;
   std::optional<FootprintFilter> footprint;  ///< none: the scene's own, else default_footprint_filter
   HistorySettings history;                   ///< of the methods' frames
   ReferenceSettings reference;
@@ -168,9 +168,9 @@ enum class RunKind : std::uint8_t {
   animation    ///< images, errors and flicker of the frames of a path, without times
 };
 
-[[nodiscard]] inline RunKind kind_of(const RunSettings& run) {
-  if (run.path.kind) return RunKind::animation;
-  return run.view.zoom.frames > 0 ? RunKind::zoom : RunKind::comparison;
+[[nodiscard]] inline RunKind kind_of(const ViewSettings& view) {
+  if (view.path.kind) return RunKind::animation;
+  return view.zoom.frames > 0 ? RunKind::zoom : RunKind::comparison;
 }
 
 }  // namespace footprint

@@ -111,7 +111,7 @@ std::vector<MethodSpec> parse_known_methods(const std::string& text, const std::
   return methods;
 }
 
-std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods) {
+std::vector<std::string> texts_of(std::span<const MethodSpec> methods) {
   std::vector<std::string> texts;
   texts.reserve(methods.size());
   for (const MethodSpec& method : methods) texts.push_back(method.text);
@@ -157,9 +157,9 @@ HistorySettings history_of(const MethodSpec& method, const HistorySettings& comm
   return run.history;
 }
 
-std::size_t count_histories(const RunSettings& run) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      run.methods, [&](const MethodSpec& method) { return history_of(method, run.history).frames > 0; }));
+std::size_t count_histories(std::span<const MethodSpec> methods, const HistorySettings& common) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(methods, [&](const MethodSpec& method) { return history_of(method, common).frames > 0; }));
 }
 
 }  // namespace footprint

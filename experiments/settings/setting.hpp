@@ -81,7 +81,7 @@ void read_settings(const TomlTable& table, std::string_view name, RunSettings& r
                                                           const std::filesystem::path& folder = {});
 
 /// The methods as they were written.
-[[nodiscard]] std::vector<std::string> texts_of(const std::vector<MethodSpec>& methods);
+[[nodiscard]] std::vector<std::string> texts_of(std::span<const MethodSpec> methods);
 
 /// Every method of the program except slow ones (MethodInfo::slow_frame), with its defaults.
 [[nodiscard]] std::vector<MethodSpec> every_method();
@@ -102,6 +102,6 @@ void read_settings(const TomlTable& table, std::string_view name, RunSettings& r
 [[nodiscard]] HistorySettings history_of(const MethodSpec& method, const HistorySettings& common);
 
 /// The number of a run's methods whose images are histories.
-[[nodiscard]] std::size_t count_histories(const RunSettings& run);
+[[nodiscard]] std::size_t count_histories(std::span<const MethodSpec> methods, const HistorySettings& common);
 
 }  // namespace footprint

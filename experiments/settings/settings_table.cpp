@@ -34,7 +34,9 @@ std::optional<double>& zoom_from(Run& run) { return run.view.zoom.from; }
 std::optional<double>& zoom_to(Run& run) { return run.view.zoom.to; }
 int& zoom_frames(Run& run) { return run.view.zoom.frames; }
 std::optional<Exposure>& exposure_of(Run& run) { return run.view.exposure; }
-AnimationPath& animation_path(Run& run) { return run.path.kind ? *run.path.kind : run.path.kind.emplace(); }
+AnimationPath& animation_path(Run& run) {
+  return run.view.path.kind ? *run.view.path.kind : run.view.path.kind.emplace();
+}
 std::vector<std::string>& gpus_of(Run& run) { return run.gpus; }
 int& repeats(Run& run) { return run.timing.repeats; }
 
@@ -210,12 +212,12 @@ std::vector<Setting> view_settings() {
        .otherwise = "the last of the scene's zoom path, or 8 times the first"},
       {.option = "--degrees",
        .commands = {"animate"},
-       .type = angle([](Run& run) -> std::optional<double>& { return run.path.degrees; }, largest_turn),
+       .type = angle([](Run& run) -> std::optional<double>& { return run.view.path.degrees; }, largest_turn),
        .help = "orbit, light: angle from the first frame to the last",
        .otherwise = "60"},
       {.option = "--axis",
        .commands = {"animate"},
-       .type = direction([](Run& run) -> std::optional<glm::dvec3>& { return run.path.axis; }),
+       .type = direction([](Run& run) -> std::optional<glm::dvec3>& { return run.view.path.axis; }),
        .help = "orbit, light: axis of rotation through the centre of the bounds, in world space",
        .otherwise = "the camera's up"},
       {.option = "--distance",
@@ -225,7 +227,7 @@ std::vector<Setting> view_settings() {
        .otherwise = "1"},
       {.option = "--until",
        .commands = {"animate"},
-       .type = seconds([](Run& run) -> std::optional<double>& { return run.path.until; }),
+       .type = seconds([](Run& run) -> std::optional<double>& { return run.view.path.until; }),
        .help = "animation: time of the last frame; the first has that of --time",
        .otherwise = "the last key"},
       {.key = {"zoom", "from"},

@@ -22,10 +22,10 @@ namespace {
 
 // Images of a frame's size at once: each method's image and its strips, and those of the reference. An animation has
 // no strips, but two frames.
-int images_at_once(const RunSettings& settings) {
-  const int methods = static_cast<int>(settings.methods.size());
-  const int histories = 3 * static_cast<int>(count_histories(settings));  // two targets and their depths
-  return histories + (kind_of(settings) == RunKind::animation ? 2 * methods + 28 : 6 * methods + 15);
+int images_at_once(RunKind kind, std::size_t all_methods, std::size_t with_history) {
+  const int methods = static_cast<int>(all_methods);
+  const int histories = 3 * static_cast<int>(with_history);  // two targets and their depths
+  return histories + (kind == RunKind::animation ? 2 * methods + 28 : 6 * methods + 15);
 }
 
 // ---- what draws
@@ -34,8 +34,9 @@ int images_at_once(const RunSettings& settings) {
 struct Tools {
   Tools(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const std::vector<PlannedView>& views,
         const GpuCompiler& compiler, const Progress& progress)
-      : stage(std::move(scene), settings, progress, options_of(kind_of(settings))),
-        reference(reference_tools(stage, bound_of(settings))),
+      : stage(std::move(scene), settings, progress, options_of(kind_of(settings.view))),
+        reference(reference_tools(
+            stage, has_only_histories(settings.methods, settings.history) ? BoundUse::off : settings.reference.bound)),
         methods{.frames = MethodFrames(stage, views)} {
     if (!settings.gpus.empty()) methods.gpu_costs.emplace(stage, settings.gpus, compiler);
   }
@@ -45,8 +46,8 @@ struct Tools {
   }
 
   // Histories have no footprint filter, so the bound of one says nothing of them.
-  static BoundUse bound_of(const RunSettings& settings) {
-    return count_histories(settings) == settings.methods.size() ? BoundUse::off : settings.reference.bound;
+  static bool has_only_histories(std::span<const MethodSpec> methods, const HistorySettings& common) {
+    return count_histories(methods, common) == methods.size();
   }
 
   Stage stage;
@@ -62,10 +63,13 @@ class Workbench {
       : settings_(settings),
         context_(context),
         progress_(std::move(progress)),
-        poses_(std::make_shared<ScenePoses>(settings)),
-        scene_(context.shared != nullptr ? Scene{} : scene_for_path(settings, scene_of_run(settings, *poses_))),
-        views_(plan_views(settings, scene())) {
-    require_pictures(frame_size(scene(), settings.view.size), images_at_once(settings));
+        poses_(std::make_shared<ScenePoses>(settings.scene, settings.scene_library, settings.overrides)),
+        scene_(context.shared != nullptr ? Scene{}
+                                         : scene_for_path(settings.view, scene_of_run(settings.view, *poses_))),
+        views_(plan_views(settings.view, poses_->first_time(), scene())) {
+    require_pictures(frame_size(scene(), settings.view.size),
+                     images_at_once(kind_of(settings.view), settings.methods.size(),
+                                    count_histories(settings.methods, settings.history)));
   }
 
   // The scene as it was loaded, and from the first image on as the stage has it.
@@ -173,13 +177,17 @@ class ProcessTimes {
   std::optional<std::vector<FrameTimes>> all_;
 };
 
-double times_weight(const RunSettings& settings) {
-  return static_cast<double>(settings.methods.size()) * settings.timing.repeats;
-}
+// The parts of a view's work.
+struct ViewWeights {
+  double reference, methods, times;
 
-double view_weight(const RunSettings& settings) {
-  return reference_weight(settings.reference) + methods_weight(settings.methods.size(), settings.reference) +
-         times_weight(settings);
+  [[nodiscard]] double all() const { return reference + methods + times; }
+};
+
+ViewWeights view_weights(const ReferenceSettings& reference, std::size_t methods, int repeats) {
+  return {.reference = reference_weight(reference),
+          .methods = methods_weight(methods, reference),
+          .times = static_cast<double>(methods) * repeats};
 }
 
 DistanceTimes time_view(Tools& tools, const PlannedView& place, int repeats, const Progress& progress) {
@@ -197,7 +205,8 @@ class ViewSequence {
         bench_(bench),
         kept_(kept),
         folder_(std::move(folder)),
-        progress_(progress, static_cast<double>(bench.views().size()) * view_weight(settings) + settings.reference.spp),
+        weights_(view_weights(settings.reference, settings.methods.size(), settings.timing.repeats)),
+        progress_(progress, static_cast<double>(bench.views().size()) * weights_.all() + settings.reference.spp),
         references_(context.shared != nullptr ? context.shared->references : own_references_),
         times_(context.further_times) {}
 
@@ -220,15 +229,15 @@ class ViewSequence {
   DistanceResult measured(const PlannedView& place) {
     const Exposure exposure = run_exposure();
     Tools& tools = bench_.tools();
-    ProgressParts parts(progress_.next(view_weight(settings_), ""), view_weight(settings_));
+    ProgressParts parts(progress_.next(weights_.all(), ""), weights_.all());
     find_frame_before(place);
     Reference reference = render_reference(tools.stage, tools.reference, place, wanted(), references_,
-                                           parts.next(reference_weight(settings_.reference), ""));
+                                           parts.next(weights_.reference, ""));
     own_references_ = {};
     watch(noise_records(texts_of(settings_.methods), reference));
     const MethodsWanted of_methods{.reference = settings_.reference, .exposure = exposure.factor};
-    MeasuredView view = measure_view(tools.stage, tools.methods, reference, of_methods,
-                                     parts.next(methods_weight(settings_.methods.size(), settings_.reference), ""));
+    MeasuredView view =
+        measure_view(tools.stage, tools.methods, reference, of_methods, parts.next(weights_.methods, ""));
     write_view(folder_, settings_.methods, reference, exposure.factor, view);
     if (before_) add_flicker(view.records, *before_, view.images, reference, exposure.factor);
     DistanceResult result = result_of(reference, view, exposure);
@@ -237,7 +246,7 @@ class ViewSequence {
     if (place.kind != RunKind::comparison)
       before_ = FrameBefore{.reference = std::move(reference), .images = std::move(view.images)};
     watch(result.records);
-    set_all_times(place, result, parts.next(times_weight(settings_), place.words() + ": "));
+    set_all_times(place, result, parts.next(weights_.times, place.words() + ": "));
     kept_.store(part_name(place), result, files_of_view(result));
     return result;
   }
@@ -291,6 +300,7 @@ class ViewSequence {
   Workbench& bench_;
   const KeptParts& kept_;
   RunFolder folder_;
+  ViewWeights weights_;
   ProgressParts progress_;
   SharedReferences own_references_;  // of the view that is measured, if nothing is shared
   SharedReferences& references_;
@@ -313,22 +323,21 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
   }
 }
 
-std::optional<AnimationWay> way_of(const RunSettings& settings, const Scene& scene) {
-  if (kind_of(settings) != RunKind::animation) return {};
-  AnimationWay way{.path = std::string(word_for(animation_paths, *settings.path.kind))};
-  if (settings.path.kind != AnimationPath::orbit && settings.path.kind != AnimationPath::light) return way;
-  const glm::dvec3 axis = turning_axis(settings.path, scene);
+std::optional<AnimationWay> way_of(const PathSettings& path, const Scene& scene) {
+  if (!path.kind) return {};
+  AnimationWay way{.path = std::string(word_for(animation_paths, *path.kind))};
+  if (path.kind != AnimationPath::orbit && path.kind != AnimationPath::light) return way;
+  const glm::dvec3 axis = turning_axis(path, scene);
   way.axis = {axis.x, axis.y, axis.z};
   return way;
 }
 
-ReferenceInfo reference_of(const RunSettings& settings, const EffectSet& effects) {
+ReferenceInfo reference_info(const ReferenceSettings& reference, const EffectSet& effects) {
   ReferenceInfo info;
-  info.spp = settings.reference.spp;
-  info.filter = word_for(reference_filters, settings.reference.filter);
-  info.seed = settings.reference.seed;
-  if (has(effects, Effect::environment_light))
-    info.environment = word_for(reference_integrals, settings.reference.environment);
+  info.spp = reference.spp;
+  info.filter = word_for(reference_filters, reference.filter);
+  info.seed = reference.seed;
+  if (has(effects, Effect::environment_light)) info.environment = word_for(reference_integrals, reference.environment);
   return info;
 }
 
@@ -339,10 +348,10 @@ ComparisonHead head_of(const Tools& tools, const RunSettings& settings) {
                       .error_scale = settings.view.error_scale};
   head.results.backend = backend_info(stage.context().info());
   head.results.scene = stage.info();
-  head.results.reference = reference_of(settings, stage.effects());
+  head.results.reference = reference_info(settings.reference, stage.effects());
   head.results.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, stage.scene()));
   head.results.timing.frames = settings.timing.repeats;
-  head.results.way = way_of(settings, stage.scene());
+  head.results.way = way_of(settings.view.path, stage.scene());
   std::ranges::copy(tools.reference.warnings, std::back_inserter(head.results.scene.warnings));
   const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
   if (left_out.any())

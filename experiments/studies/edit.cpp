@@ -144,13 +144,12 @@ std::vector<EditedPatch> patches_of(const SceneSettings& settings, const Scene& 
 // A method with its program on the GPU, for a set of effects. Pinned: each part keeps the address of those before it.
 struct EditedDrawing {
   EditedDrawing(const gl::Context& context, const Scene& scene, const EffectSet& wanted, BakedMethod first,
-                const glm::ivec2& size, const RunSettings& settings)
+                const glm::ivec2& size, const FootprintFilter& filter, int tile)
       : effects(wanted),
         gpu_scene(context.info(), scene, effects),
         baked(std::make_unique<BakedMethod>(std::move(first))),
         method(std::make_unique<GpuMethod>(gpu_scene, *baked)),
-        frames(context.info(), gpu_scene, *method, size,
-               frame_program(scene, footprint_filter_of(settings.footprint, scene)), settings.backend.tile) {}
+        frames(context.info(), gpu_scene, *method, size, frame_program(scene, filter), tile) {}
 
   // Takes over what an edit changed. Waits until the GPU has it.
   void exchange(const Scene& scene, BakedMethod next) {
@@ -260,7 +259,9 @@ class Editor {
     if (!drawing_ || drawing_->effects != effects) {
       BakedMethod first = baked;
       drawing_.reset();
-      drawing_ = std::make_unique<EditedDrawing>(context_, scene_, effects, std::move(first), size_, settings_.run);
+      drawing_ = std::make_unique<EditedDrawing>(context_, scene_, effects, std::move(first), size_,
+                                                 footprint_filter_of(settings_.run.footprint, scene_),
+                                                 settings_.run.backend.tile);
       drawing_->frames.draw(view);
       gl::api().Finish();
     }

@@ -79,12 +79,12 @@ void add(ContentHash& hash, const auto& value) { hash.add(to_json_value(value).d
 // A distance does not depend on the others, except for the first, which decides an automatic exposure, and for the
 // frame before it in a zoom.
 void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene) {
-  const auto& [size, quick_size, distances, zoom, exposure, error_scale] = settings.view;
-  const auto& [kind, degrees, axis, until] = settings.path;
+  const auto& [size, quick_size, distances, zoom, path, exposure, error_scale] = settings.view;
+  const auto& [kind, degrees, axis, until] = path;
   const glm::ivec2 pixels = frame_size(scene, size);
   const glm::dvec3 turned = axis.value_or(glm::dvec3(0.0));
-  const std::vector<PlannedView> all = plan_views(settings, scene);
-  const bool depends_on_path = kind_of(settings) != RunKind::comparison;
+  const std::vector<PlannedView> all = plan_views(settings.view, settings.overrides.model.time.value_or(0.0), scene);
+  const bool depends_on_path = kind_of(settings.view) != RunKind::comparison;
   for (const PlannedView& view : std::span(all).first(depends_on_path ? all.size() : 1)) add(hash, view.at);
   add(hash, std::tuple(pixels.x, pixels.y, exposure, zoom.frames, error_scale));
   add(hash, std::tuple(kind, degrees, until, turned.x, turned.y, turned.z));
@@ -216,7 +216,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
     hash.add(method.text);
     if (method.file) hash.add(method.file->file_content);
   }
-  if (!settings.bakes.empty()) hash.add(content_of_given_bakes(settings));
+  if (!settings.bakes.empty()) hash.add(content_of_given_bakes(settings.bakes));
   add(hash, settings.gpus);
   add_view(hash, settings, scene);
   add(hash, settings.reference);

@@ -116,19 +116,17 @@ std::string name_of(const StagedMethod& method) {
 }
 
 // The row of a method without figures.
-MethodCosts failed_costs(const RunSettings& settings, std::size_t method, const Error& why) {
+MethodCosts failed_costs(const MethodSpec& method, const std::vector<std::string>& gpus, const Error& why) {
   MethodCosts costs;
-  costs.method = settings.methods[method].text;
-  for (const Chip* chip : chips_named("--gpu", settings.gpus)) {
+  costs.method = method.text;
+  for (const Chip* chip : chips_named("--gpu", gpus)) {
     costs.gpus.emplace_back().gpu = chip->name;
     costs.gpus.back().failure = why.what();
   }
   return costs;
 }
 
-double distance_of(const RunSettings& settings) {
-  return settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
-}
+double first_distance(const ViewSettings& view) { return view.distances.empty() ? 1.0 : view.distances.front(); }
 
 }  // namespace
 
@@ -253,7 +251,7 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
   ProgressParts parts(progress, 10);
   const Stage stage(load_scene(settings.scene, settings.scene_library, settings.overrides), settings, parts.next(4, ""),
                     {.records_refusals = true});
-  const View view = stage.view(distance_of(settings));
+  const View view = stage.view(first_distance(settings.view));
   GpuCosts gpus(stage, settings.gpus, compile);
   CostReport report;
   report.backend = backend_info(stage.context().info());
@@ -261,7 +259,7 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
   report.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, stage.scene()));
   report.compiler = gpus.compiler();
   report.size = {view.size.x, view.size.y};
-  report.distance = distance_of(settings);
+  report.distance = first_distance(settings.view);
   ProgressParts methods(parts.next(6, ""), static_cast<double>(settings.methods.size()));
   for (std::size_t m = 0; m < settings.methods.size(); ++m) {
     const StagedMethod& method = stage.methods()[m];
@@ -270,7 +268,7 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
     if (!failure)
       failure = failure_of(stage.context(), settings.methods[m],
                            [&] { report.methods.push_back(gpus.costs(method, view, own)); });
-    if (failure) report.methods.push_back(failed_costs(settings, m, *failure));
+    if (failure) report.methods.push_back(failed_costs(settings.methods[m], settings.gpus, *failure));
   }
   return report;
 }

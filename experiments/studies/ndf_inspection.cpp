@@ -139,8 +139,8 @@ constexpr double part_in_pictures = 1.0 / 16.0;
 // Sufficient for the part below the horizon.
 constexpr double part_in_energy = 1.0 / 8.0;
 
-FootprintFilter filter_of(const RunSettings& run) {
-  const FootprintFilter filter = run.footprint.value_or(default_footprint_filter);
+FootprintFilter filter_of(const std::optional<FootprintFilter>& given) {
+  const FootprintFilter filter = given.value_or(default_footprint_filter);
   require_one_lookup(filter, "NDFs");
   return filter;
 }
@@ -200,7 +200,7 @@ NdfResults described(const NdfSource& source, const NdfSettings& settings, const
   results.footprint = {rect.lower.x, rect.lower.y, rect.upper.x, rect.upper.y};
   results.texels = {.area = texels.texels, .valid_share = texels.valid_share, .distinct = texels.facets.size()};
   results.fetch = {.level = footprint_level(source.material, rect),
-                   .filter = footprint_filter_text(filter_of(settings.run))};
+                   .filter = footprint_filter_text(filter_of(settings.run.footprint))};
   results.notes = source.notes;
   return results;
 }
@@ -229,11 +229,11 @@ class NdfEvaluator {
  public:
   NdfEvaluator(const NdfSettings& settings, const Material& material)
       : settings_(settings),
-        part_(part_under(material, settings.footprint, filter_of(settings.run))),
+        part_(part_under(material, settings.footprint, filter_of(settings.run.footprint))),
         share_(share_baked(material, part_)),
         context_(settings.run.backend.context),
         effects_(effects_on(derive_effects(scene_of_facets(material)))),
-        cache_(cache_of(settings.run)),
+        cache_(cache_in(settings.run.cache)),
         whole_(context_, material, settings.footprint, effects_, cache_ ? &*cache_ : nullptr) {
     if (cache_) bakes_.emplace(*cache_);
   }
@@ -251,8 +251,8 @@ class NdfEvaluator {
     const Method& method = find_method(spec);
     BakeTarget& target = target_of(method);
     const BakedMethod baked = bake(method, spec, target.scene, effects_, progress, bakes_ ? &*bakes_ : nullptr);
-    const MethodNdf ndf(context_.info(), target.gpu, baked, target.scene.materials.front(), filter_of(settings_.run),
-                        settings_.run.backend.tile);
+    const MethodNdf ndf(context_.info(), target.gpu, baked, target.scene.materials.front(),
+                        filter_of(settings_.run.footprint), settings_.run.backend.tile);
     for (const std::string& note : baked.materials.front().notes)
       results.notes.push_back(fmt::format("{}: {}", spec.text, note));
     const std::vector<float> densities = ndf.densities(target.footprint, grid.hemisphere.directions);

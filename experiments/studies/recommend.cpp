@@ -129,8 +129,7 @@ std::vector<Candidate> candidates_of(const std::vector<FilterRun>& runs, const s
 }
 
 // Half of each side, if that leaves enough pixels to separate candidates.
-glm::ivec2 coarse_size(const RunSettings& run, const Scene& scene) {
-  const glm::ivec2 full = frame_size(scene, run.view.size);
+glm::ivec2 coarse_size(const glm::ivec2& full) {
   return std::min(full.x, full.y) < 2 * smallest_coarse_side ? full : full / 2;
 }
 
@@ -231,7 +230,7 @@ class Advisor {
       methods.push_back(with_plain(settings_.run.methods, filter));
     std::optional<std::size_t> tried;
     if (!settings_.exhaustive) {
-      coarse_size_ = coarse_size(settings_.run, scene_->scene);
+      coarse_size_ = coarse_size(frame_size(scene_->scene, settings_.run.view.size));
       tried = count_of(methods);
       const std::vector<FilterRun> coarse = run_all(methods, true);
       tell_first_answer(coarse, *tried);

@@ -58,15 +58,14 @@ bool clear_errors(const gl::Context& context) {
 
 }  // namespace
 
-std::optional<DiskCache> cache_of(const RunSettings& settings) {
-  if (!settings.cache) return {};
-  return DiskCache(*settings.cache);
+std::optional<DiskCache> cache_in(const std::optional<std::filesystem::path>& folder) {
+  if (!folder) return {};
+  return DiskCache(*folder);
 }
 
-BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const EffectSet& effects,
-                       const Progress& progress) {
-  const MethodSpec& spec = settings.methods.front();
-  const std::optional<DiskCache> files = cache_of(settings);
+BakedMethod bake_by_cache(const std::optional<std::filesystem::path>& cache, const MethodSpec& spec, const Scene& scene,
+                          const EffectSet& effects, const Progress& progress) {
+  const std::optional<DiskCache> files = cache_in(cache);
   return bake(find_method(spec), spec, scene, effects, progress, files ? &*files : nullptr);
 }
 
@@ -92,8 +91,9 @@ PreparedScene::PreparedScene(Scene loaded, const RunSettings& settings, std::sha
       triangles(scene_info(scene, {}).triangles),
       decisions(derive_effects(scene)),
       effects(effects_on(decisions) & ~settings.without),
-      poses(scene_poses ? std::move(scene_poses) : std::make_shared<ScenePoses>(settings)) {
-  require_given_bakes(settings, scene, effects);
+      poses(scene_poses ? std::move(scene_poses)
+                        : std::make_shared<ScenePoses>(settings.scene, settings.scene_library, settings.overrides)) {
+  require_given_bakes(settings.bakes, settings.methods, scene, effects);
 }
 
 StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
@@ -104,10 +104,10 @@ StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
 
 std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
                                                       const EffectSet& effects, const MethodSpec& spec,
-                                                      const RunSettings& settings, const Progress& progress) {
+                                                      const WorkFolders& folders, const Progress& progress) {
   BakedMethod made = make_bake(find_method(spec), spec);
-  const std::optional<DiskCache> files = cache_of(settings);
-  const std::optional<BakeFolder> given = given_bake(settings, spec);
+  const std::optional<DiskCache> files = cache_in(folders.cache);
+  const std::optional<BakeFolder> given = given_bake(folders.bakes, spec);
   BakeSource source{.cache = files ? &*files : nullptr};
   if (given) {
     made.given_by = given->folder().string();
@@ -143,10 +143,10 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
   const double upload = hides_environment(shared.effects) ? bakes : 1.0;
   ProgressParts parts(progress, upload + bakes);
   const Progress of_upload = parts.next(upload, "");
-  if (settings.path.kind == AnimationPath::animation) shapes_ = shared.scene.meshes;
+  if (settings.view.path.kind == AnimationPath::animation) shapes_ = shared.scene.meshes;
   if (is_first) {
     shared.scene = refined_for_visibility(std::move(shared.scene), shared.effects);
-    const std::optional<DiskCache> cache = cache_of(settings);
+    const std::optional<DiskCache> cache = cache_in(settings.cache);
     shared.gpu = std::make_unique<GpuScene>(shared.context.info(), shared.scene, shared.effects, of_upload,
                                             cache ? &*cache : nullptr);
     const GpuVisibility* const visibility = shared.gpu->visibility();
@@ -191,7 +191,8 @@ std::vector<StagedFrames> Stage::wanted_methods(bool has_unit) {
 
 StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress) const {
   std::shared_ptr<const PreparedMethod>& known = prepared_->methods[text_of_maps(method.spec)];
-  if (!known) known = prepared_method(*prepared_->gpu, scene(), effects(), method.spec, settings_, progress);
+  if (!known)
+    known = prepared_method(*prepared_->gpu, scene(), effects(), method.spec, work_folders(settings_), progress);
   return {context().info(), *prepared_->gpu, scene(), known, method, size_, settings_.backend.tile};
 }
 
@@ -228,13 +229,13 @@ void Stage::pose_at(double seconds) {
 }
 
 View Stage::move_to(const RunView& view) {
-  if (settings_.path.kind == AnimationPath::light) {
-    prepared_->scene.lights = lights_on_path(settings_.path, scene(), lights_, view);
+  if (settings_.view.path.kind == AnimationPath::light) {
+    prepared_->scene.lights = lights_on_path(settings_.view.path, scene(), lights_, view);
     prepared_->gpu->update(scene());
   }
-  if (settings_.path.kind == AnimationPath::animation) pose_at(view.seconds);
+  if (settings_.view.path.kind == AnimationPath::animation) pose_at(view.seconds);
   return {.size = size_,
-          .camera = camera_on_path(settings_.path, scene(), view),
+          .camera = camera_on_path(settings_.view.path, scene(), view),
           .seed = settings_.reference.seed,
           .frame = view.frame};
 }

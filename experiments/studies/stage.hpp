@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -42,12 +43,19 @@ struct StageOptions {
 [[nodiscard]] std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
                                               const std::function<void()>& action);
 
-/// The cache of slow work; none if the settings have no folder for it.
-[[nodiscard]] std::optional<DiskCache> cache_of(const RunSettings& settings);
+/// The folders that slow work may be read from instead of being done.
+struct WorkFolders {
+  std::vector<std::filesystem::path> bakes{};    ///< of `footprint bake`
+  std::optional<std::filesystem::path> cache{};  ///< none: nothing is cached
+};
+[[nodiscard]] inline WorkFolders work_folders(const RunSettings& run) { return {run.bakes, run.cache}; }
 
-/// The maps of the settings' first method, by that cache.
-[[nodiscard]] BakedMethod bake_first(const RunSettings& settings, const Scene& scene, const EffectSet& effects,
-                                     const Progress& progress);
+/// The cache in a folder; none without one.
+[[nodiscard]] std::optional<DiskCache> cache_in(const std::optional<std::filesystem::path>& folder);
+
+/// The maps of a method, from the cache in a folder if it has them.
+[[nodiscard]] BakedMethod bake_by_cache(const std::optional<std::filesystem::path>& cache, const MethodSpec& spec,
+                                        const Scene& scene, const EffectSet& effects, const Progress& progress);
 
 /// The maps of a method in memory and on the GPU, which serve frames of every size under every footprint filter.
 struct PreparedMethod {
@@ -55,10 +63,10 @@ struct PreparedMethod {
   std::unique_ptr<GpuMethod> gpu;
 };
 
-/// Bakes a method, unless a folder or the cache of the settings has its maps, and uploads it.
+/// Bakes a method, unless one of the folders has its maps, and uploads it.
 [[nodiscard]] std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
                                                                     const EffectSet& effects, const MethodSpec& spec,
-                                                                    const RunSettings& settings,
+                                                                    const WorkFolders& folders,
                                                                     const Progress& progress);
 
 /// Shared by stages over one scene: its context, its maps and meshes on the GPU, and the methods that were prepared

@@ -103,11 +103,11 @@ TEST(Stage, AFrameOfAnAnimationIsThatOfTheScenePosedAtItsTime) {
   settings.methods = parse_methods("direct");
   settings.view.size = {24, 24};
   settings.view.zoom.frames = 3;
-  settings.path.kind = AnimationPath::animation;
+  settings.view.path.kind = AnimationPath::animation;
   settings.cache.reset();
-  ScenePoses poses(settings);
-  const Scene scene = scene_of_run(settings, poses);
-  const std::vector<PlannedView> views = plan_views(settings, scene);
+  ScenePoses poses(settings.scene, settings.scene_library, settings.overrides);
+  const Scene scene = scene_of_run(settings.view, poses);
+  const std::vector<PlannedView> views = plan_views(settings.view, poses.first_time(), scene);
   const auto moved = [&](const std::vector<std::size_t>& frames) {
     Stage stage(scene, settings, no_progress);
     View view;

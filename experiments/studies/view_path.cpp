@@ -31,33 +31,30 @@ constexpr double default_turn = 60.0;  // degrees
   throw Error(ErrorKind::usage, option, why, "leave it out, or choose another --path");
 }
 
-void require_settings_of_its_own(const RunSettings& settings) {
-  if (kind_of(settings) != RunKind::animation) return;
-  const bool zooms = settings.path.kind == AnimationPath::zoom;
-  const bool plays = settings.path.kind == AnimationPath::animation;
-  if ((zooms || plays) && settings.path.degrees) refuse("--degrees", "this path does not turn");
-  if ((zooms || plays) && settings.path.axis) refuse("--axis", "this path does not turn");
-  if (!plays && settings.path.until) refuse("--until", "this path follows no animation");
-  if (zooms && !settings.view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
-  if (!zooms && settings.view.zoom.from) refuse("--from", "this path is not a zoom");
-  if (!zooms && settings.view.zoom.to) refuse("--to", "this path is not a zoom");
+void require_settings_of_its_own(const ViewSettings& view) {
+  if (kind_of(view) != RunKind::animation) return;
+  const bool zooms = view.path.kind == AnimationPath::zoom;
+  const bool plays = view.path.kind == AnimationPath::animation;
+  if ((zooms || plays) && view.path.degrees) refuse("--degrees", "this path does not turn");
+  if ((zooms || plays) && view.path.axis) refuse("--axis", "this path does not turn");
+  if (!plays && view.path.until) refuse("--until", "this path follows no animation");
+  if (zooms && !view.distances.empty()) refuse("--distance", "a zoom goes from --from to --to");
+  if (!zooms && view.zoom.from) refuse("--from", "this path is not a zoom");
+  if (!zooms && view.zoom.to) refuse("--to", "this path is not a zoom");
 }
 
-double first_time(const RunSettings& settings) { return settings.overrides.model.time.value_or(0.0); }
-
 // At equal times from --time to --until.
-void set_times(const RunSettings& settings, const Scene& scene, std::vector<RunView>& views) {
-  const double from = first_time(settings);
-  const double until = settings.path.until.value_or(scene.motion ? scene.motion->last_key : from);
+void set_times(const PathSettings& path, double from, const Scene& scene, std::vector<RunView>& views) {
+  const double until = path.until.value_or(scene.motion ? scene.motion->last_key : from);
   if (from == until)
     throw Error(ErrorKind::usage, "--until", fmt::format("the animation ends at {:g} s, where it starts", until),
                 "let --time and --until differ");
   for (RunView& view : views) view.seconds = from + (until - from) * view.frame / static_cast<double>(views.size() - 1);
 }
 
-std::vector<RunView> views_of_distances(const RunSettings& settings, const Scene& scene) {
+std::vector<RunView> views_of_distances(const ViewSettings& settings, const Scene& scene) {
   std::vector<RunView> views;
-  for (const double distance : run_distances(settings.view, scene)) {
+  for (const double distance : run_distances(settings, scene)) {
     const std::size_t frame = kind_of(settings) == RunKind::comparison ? 0 : views.size();
     views.push_back({.distance = distance, .frame = static_cast<std::uint32_t>(frame)});
   }
@@ -65,18 +62,18 @@ std::vector<RunView> views_of_distances(const RunSettings& settings, const Scene
 }
 
 // A path that turns, or that follows an animation.
-std::vector<RunView> views_of_path(const RunSettings& settings, const Scene& scene) {
+std::vector<RunView> views_of_path(const ViewSettings& settings, double first_time, const Scene& scene) {
   if (settings.path.kind == AnimationPath::light && scene.lights.empty())
     throw Error(ErrorKind::usage, "--path", scene.source + " has no light to move, and its environment stays",
                 "take --path orbit");
-  const int count = settings.view.zoom.frames;
-  const double distance = settings.view.distances.empty() ? 1.0 : settings.view.distances.front();
+  const int count = settings.zoom.frames;
+  const double distance = settings.distances.empty() ? 1.0 : settings.distances.front();
   const bool plays = settings.path.kind == AnimationPath::animation;
   const double turn = plays ? 0.0 : settings.path.degrees.value_or(default_turn);
   std::vector<RunView> views;
   for (int i = 0; i < count; ++i)
     views.push_back({.distance = distance, .degrees = turn * i / (count - 1), .frame = static_cast<std::uint32_t>(i)});
-  if (plays) set_times(settings, scene, views);
+  if (plays) set_times(settings.path, first_time, scene, views);
   return views;
 }
 
@@ -155,11 +152,11 @@ std::string PlannedView::stem(const std::string& what) const {
   return kind == RunKind::animation ? fmt::format("{}_{:04}", what, index) : distance_stem(at.distance, what);
 }
 
-std::vector<PlannedView> plan_views(const RunSettings& settings, const Scene& scene) {
+std::vector<PlannedView> plan_views(const ViewSettings& settings, double first_time, const Scene& scene) {
   require_settings_of_its_own(settings);
   const std::vector<RunView> places = settings.path.kind.value_or(AnimationPath::zoom) == AnimationPath::zoom
                                           ? views_of_distances(settings, scene)
-                                          : views_of_path(settings, scene);
+                                          : views_of_path(settings, first_time, scene);
   std::vector<PlannedView> views;
   for (const RunView& at : places)
     views.push_back({.at = at, .kind = kind_of(settings), .index = views.size(), .count = places.size()});
@@ -193,28 +190,27 @@ Scene ScenePoses::at(double seconds, const std::optional<PlacedBounds>& bounds) 
   return assemble(read_scene(scene_, library_, overrides), files_);
 }
 
-Scene scene_of_run(const RunSettings& settings, ScenePoses& poses) {
-  if (settings.path.kind != AnimationPath::animation)
-    return load_scene(settings.scene, settings.scene_library, settings.overrides);
-  const Scene first = poses.at(first_time(settings), {});
+Scene scene_of_run(const ViewSettings& settings, ScenePoses& poses) {
+  if (settings.path.kind != AnimationPath::animation) return poses.first();
+  const Scene first = poses.at(poses.first_time(), {});
   WideBounds bounds;
   bounds.add(first.bounds, first.origin);
   bool casts = false;
-  for (const PlannedView& view : plan_views(settings, first)) {
+  for (const PlannedView& view : plan_views(settings, poses.first_time(), first)) {
     const Scene posed = poses.at(view.at.seconds, {});
     bounds.add(posed.bounds, posed.origin);
     casts = casts || casts_shadows(posed);
   }
   const glm::dvec3 origin = origin_for(bounds);
-  Scene scene = poses.at(first_time(settings), PlacedBounds{bounds.from(origin), origin});
+  Scene scene = poses.at(poses.first_time(), PlacedBounds{bounds.from(origin), origin});
   if (casts && !scene.shadows.cast) scene.shadows.cast = true;
   return scene;
 }
 
-Scene scene_for_path(const RunSettings& settings, Scene scene) {
+Scene scene_for_path(const ViewSettings& settings, Scene scene) {
   if (settings.path.kind != AnimationPath::light || scene.shadows.cast || casts_shadows(scene)) return scene;
   Scene moved = scene;
-  const std::vector<PlannedView> views = plan_views(settings, scene);
+  const std::vector<PlannedView> views = plan_views(settings, 0.0, scene);  // of lights that turn: no times
   const bool casts = std::ranges::any_of(views, [&](const PlannedView& view) {
     moved.lights = lights_on_path(settings.path, scene, scene.lights, view.at);
     return casts_shadows(moved);

@@ -53,7 +53,8 @@ struct PlannedView {
 /// The views of a run over `scene`: its distances, or as many frames of its path as the settings of its zoom say.
 /// Errors (usage): a zoom that ends where it starts; a setting that the path has no use for; lights are to move and the
 /// scene has none but an environment.
-[[nodiscard]] std::vector<PlannedView> plan_views(const RunSettings& settings, const Scene& scene);
+/// first_time: seconds of the model file's animation in the first view.
+[[nodiscard]] std::vector<PlannedView> plan_views(const ViewSettings& settings, double first_time, const Scene& scene);
 
 /// The scene of a run at any time of its animation. Its files are read once.
 class ScenePoses {
@@ -61,7 +62,12 @@ class ScenePoses {
   /// scene, library, overrides: as load_scene takes them.
   ScenePoses(std::string scene, SceneLibrary library, SceneOverrides overrides)
       : scene_(std::move(scene)), library_(std::move(library)), overrides_(std::move(overrides)) {}
-  explicit ScenePoses(const RunSettings& run) : ScenePoses(run.scene, run.scene_library, run.overrides) {}
+
+  /// Seconds of the animation in the scene as it was asked for: 0 by default.
+  [[nodiscard]] double first_time() const { return overrides_.model.time.value_or(0.0); }
+
+  /// The scene as it was asked for. Errors: as load_scene.
+  [[nodiscard]] Scene first() const { return load_scene(scene_, library_, overrides_); }
 
   /// bounds: of all frames, by which cameras and lights without a place of their own are placed.
   /// Errors: as load_scene.
@@ -77,7 +83,7 @@ class ScenePoses {
 /// The scene of a run: of a path along an animation as its first frame has it, within the bounds of all frames and with
 /// shadows where any frame has them.
 /// Errors: as load_scene.
-[[nodiscard]] Scene scene_of_run(const RunSettings& settings, ScenePoses& poses);
+[[nodiscard]] Scene scene_of_run(const ViewSettings& settings, ScenePoses& poses);
 
 /// The axis of a path, unit: the camera's up by default.
 [[nodiscard]] glm::dvec3 turning_axis(const PathSettings& path, const Scene& scene);
@@ -93,6 +99,6 @@ class ScenePoses {
 
 /// The scene as a path's first frame has it, with shadows switched on where any of its frames calls for them: effects
 /// are chosen once for all frames.
-[[nodiscard]] Scene scene_for_path(const RunSettings& settings, Scene scene);
+[[nodiscard]] Scene scene_for_path(const ViewSettings& settings, Scene scene);
 
 }  // namespace footprint

@@ -44,7 +44,7 @@ struct LightAppender {
     area.emplace_back(light.position, light.area());
     area.emplace_back(light.across, light.half_size.x);
     area.emplace_back(light.up, light.half_size.y);
-    area.emplace_back(light.direction, light.shape == AreaShape::rectangle ? 1.0F : 0.0F);
+    area.emplace_back(light.direction, static_cast<float>(light.shape));
     area.emplace_back(light.intensity, first_map);
     area.emplace_back(1.0F / static_cast<float>(light.points), 0.0F, 0.0F, 0.0F);
     const bool by_lobes = light.integral == AreaIntegral::lobes;
@@ -237,7 +237,7 @@ std::vector<glm::vec3> area_points(const AreaLight& light) {
     const glm::vec2 u((static_cast<float>(i) + 0.5F) / static_cast<float>(count),
                       reversed + 0.5F / static_cast<float>(std::bit_ceil(static_cast<unsigned>(count))));
     glm::vec2 at = 2.0F * u - 1.0F;
-    if (light.shape == AreaShape::disk) {
+    if (light.shape != AreaShape::rectangle) {
       const float azimuth = 2.0F * std::numbers::pi_v<float> * u.y;
       at = std::sqrt(u.x) * glm::vec2(std::cos(azimuth), std::sin(azimuth));
     }

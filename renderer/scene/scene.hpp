@@ -84,8 +84,8 @@ struct DirectionalLight {
   glm::vec3 illuminance{1.0F};             ///< lux per channel on a surface that faces it
 };
 
-/// The outline of an area light.
-enum class AreaShape { rectangle, disk };
+/// The outline of an area light. Shaders know it by its number.
+enum class AreaShape : std::int8_t { disk = 0, rectangle = 1 };
 
 /// How methods integrate an area light; the reference samples it.
 enum class AreaIntegral {
@@ -110,7 +110,7 @@ struct AreaLight {
 
   /// Square metres.
   [[nodiscard]] float area() const {
-    return (shape == AreaShape::disk ? std::numbers::pi_v<float> : 4.0F) * half_size.x * half_size.y;
+    return (shape == AreaShape::rectangle ? 4.0F : std::numbers::pi_v<float>) * half_size.x * half_size.y;
   }
 };
 

@@ -253,7 +253,7 @@ vec3 areaLit(SurfacePoint p) {
   vec3 radiance = vec3(0.0);
   int number = 0;
   do {
-    radiance += areaLightLit(p, area_lights[number]);
+    radiance += areaLightLit(p, areaLight(number, world_position));
   } while (number++ < area_light_count - 1);
   return radiance;
 }

@@ -22,7 +22,7 @@ vec3 weighedArea(SurfacePoint p, AreaLight light, vec3 wi, float spread) {
 }
 
 vec3 areaLightIntegral(SurfacePoint p, int number) {
-  AreaLight light = area_lights[number];
+  AreaLight light = areaLight(number, world_position);
   vec3 centre = light.position_area.xyz - world_position;
   float seen = 1.0;
 #if CAST_SHADOW

@@ -68,14 +68,14 @@ Incident incidentDirectional(int i, mat3 frame) {
 #if AREA_POINTS
 // A point of an area light, as bright as its share of the light.
 Incident incidentAreaPoint(int i, mat3 frame) {
-  AreaLight light = area_lights[int(area_points[i].w)];
-  vec3 d = area_points[i].xyz - world_position;
+  AreaLight light = areaLight(int(area_points[i].w), world_position);
+  vec3 point = areaPoint(i, light), d = point - world_position;
   float spread = areaSpread(light, d);
   float attenuation = spread > 0.0 ? light.share.x / max(spread, 1e-36) : 0.0;
 #if CAST_SHADOW
   attenuation *= clearOfShadow(light.intensity.w, world_position, seen_facet, world_position - light.position_area.xyz);
 #endif
   return incident((d * inversesqrt(max(dot(d, d), 1e-36))) * frame, light.intensity.rgb * attenuation,
-                  vec4(area_points[i].xyz, 1.0));
+                  vec4(point, 1.0));
 }
 #endif

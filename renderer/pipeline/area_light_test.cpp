@@ -83,8 +83,25 @@ double reflectance(const LitSquare& c, const glm::dvec3& wi, const glm::dvec3& w
   return (0.2 + 0.8 * std::pow(1.0 - glm::dot(wo, h), 5.0)) * d * g;
 }
 
+// The radiance of a point of the square under a sphere, summed over n x n parts of equal area of the sphere.
+double summed_over_sphere(const LitSquare& c, const glm::dvec3& point, int n) {
+  const glm::dvec3 wo = glm::normalize(c.camera - point);
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double z = 2.0 * (i + 0.5) / n - 1.0, azimuth = 2.0 * pi * (j + 0.5) / n, ring = std::sqrt(1.0 - z * z);
+      const glm::dvec3 normal(ring * std::cos(azimuth), ring * std::sin(azimuth), z);
+      const glm::dvec3 d = glm::dvec3(c.light.position) + static_cast<double>(c.light.half_size.x) * normal - point;
+      const double distance = glm::length(d), cosine = -glm::dot(normal, d) / distance;
+      if (cosine > 0.0) sum += reflectance(c, d / distance, wo) * cosine / (distance * distance);
+    }
+  }
+  return 3.0 * 4.0 * sum / (n * n);  // a sphere has four times the area of its outline
+}
+
 // The radiance of a point of the square, summed over n x n parts of the light.
 double summed(const LitSquare& c, const glm::dvec3& point, int n) {
+  if (c.light.shape == AreaShape::sphere) return summed_over_sphere(c, point, n);
   const glm::dvec3 wo = glm::normalize(c.camera - point), facing(c.light.direction);
   double sum = 0.0;
   for (int i = 0; i < n; ++i) {
@@ -132,8 +149,9 @@ std::vector<LitSquare> lit_squares() {
   const AreaLight above = light_at(AreaShape::rectangle, {0.2F, 0.3F, 1.5F}, {0, 0, 0}, {0.5F, 0.3F});
   const AreaLight low = light_at(AreaShape::disk, {-1.6F, 0.2F, 0.6F}, {0, 0, 0.2F}, {0.4F, 0.4F});
   const AreaLight sunken = light_at(AreaShape::rectangle, {-1.2F, 0.1F, 0.1F}, {0, 0, 0.1F}, {0.6F, 0.5F});
+  const AreaLight ball = light_at(AreaShape::sphere, {-0.8F, 0.5F, 1.0F}, {0, 0, 2.0F}, {0.4F, 0.4F});
   std::vector<LitSquare> all;
-  for (const AreaLight& light : {above, low, sunken}) {
+  for (const AreaLight& light : {above, low, sunken, ball}) {
     for (const float roughness : {0.4F, 0.6F, 1.0F})
       all.push_back({.roughness = roughness, .light = light, .camera = {1.5, 0.0, 1.5}});
     all.push_back({.diffuse = true, .light = light});
@@ -220,6 +238,64 @@ TEST(AreaLights, DiffuseRectangleIsLambertsFormula) {
   }
 }
 
+// Irradiance of a sphere above the horizon, exact: radiance times pi sin^2 of its half angle times the cosine.
+TEST(AreaLights, DiffuseSphereIsTheFormula) {
+  for (const glm::vec3& at :
+       {glm::vec3(0.3F, -0.2F, 1.2F), glm::vec3(3.0F, 0.0F, 4.0F), glm::vec3(0.0F, 0.0F, 100.0F)}) {
+    const LitSquare c{.diffuse = true, .light = light_at(AreaShape::sphere, at, {0, 0, 200}, glm::vec2(0.5F))};
+    const Scene scene = square_of(c);
+    TestRenderer renderer(scene, {image_size, image_size});
+    const Image lobes = renderer.frame(base_surface()), reference = renderer.reference(256).mean;
+    const glm::dvec3 d = glm::dvec3(at) - point_under(scene, 7, 5);
+    const double exact = 0.8 / pi * 3.0 * d.z / std::pow(glm::length(d), 3.0);
+    EXPECT_NEAR(lobes.at(7, 5)[0], exact, 1e-3 * exact) << at.z;
+    EXPECT_NEAR(reference.at(7, 5)[0], exact, 1e-2 * exact) << at.z;
+  }
+}
+
+// A sphere that goes through the horizon is off by the fit alone: as a disk of the same cone.
+TEST(AreaLights, SpheresAreTheDisksThatTheyCover) {
+  for (const float roughness : {0.4F, 1.0F}) {
+    LitSquare c{.roughness = roughness,
+                .light = light_at(AreaShape::sphere, {-1.3F, 0.0F, 0.1F}, {0, 0, 2}, glm::vec2(0.4F)),
+                .camera = {1.5, 0.0, 1.5}};
+    const Scene scene = square_of(c);
+    TestRenderer renderer(scene, {image_size, image_size});
+    const Image lobes = renderer.frame(base_surface()), reference = renderer.reference(1024).mean;
+    EXPECT_LT(off_by(c, reference), 0.02) << roughness;
+    const glm::dvec3 point = point_under(scene, 8, 8), d = glm::dvec3(c.light.position) - point;
+    const double cosine2 = 1.0 - 0.4 * 0.4 / glm::dot(d, d);
+    const auto radius = static_cast<float>(0.4 * std::sqrt(cosine2));
+    c.light = light_at(AreaShape::disk, glm::vec3(point + cosine2 * d), glm::vec3(point), glm::vec2(radius));
+    c.light.intensity *= static_cast<float>(cosine2);
+    const float expected = frame_of(c).at(8, 8)[0];
+    EXPECT_NEAR(lobes.at(8, 8)[0], expected, 2e-3 * expected) << roughness;
+  }
+}
+
+TEST(AreaLights, SpheresLightNothingWithin) {
+  LitSquare c{.diffuse = true, .light = light_at(AreaShape::sphere, {0, 0, 0.5F}, {0, 0, 2}, glm::vec2(1.5F))};
+  TestRenderer renderer(square_of(c), {image_size, image_size});
+  EXPECT_EQ(renderer.frame(base_surface()).at(8, 8)[0], 0.0F);
+  EXPECT_EQ(renderer.reference(16).mean.at(8, 8)[0], 0.0F);
+  EXPECT_EQ(frame_of(by_points(c, 16)).at(8, 8)[0], 0.0F);
+}
+
+TEST(AreaLights, SpheresWithoutSizeArePoints) {
+  for (const float radius : {0.0F, 1e-6F, 1e-3F}) {
+    LitSquare c{.roughness = 0.6F,
+                .light = light_at(AreaShape::sphere, {-0.9F, 0.3F, 1.2F}, {0, 0, 9}, glm::vec2(radius)),
+                .camera = {1.0, 0.0, 1.2}};
+    Scene scene = square_of(c);
+    TestRenderer renderer(scene, {image_size, image_size});
+    scene.lights = {PointLight{.position = c.light.position, .intensity = c.light.intensity, .range = {}}};
+    const float point = TestRenderer(scene, {image_size, image_size}).frame(base_surface()).at(8, 8)[0];
+    EXPECT_NEAR(renderer.frame(base_surface()).at(8, 8)[0], point, 0.06 * point) << radius;
+    EXPECT_NEAR(renderer.reference(64).mean.at(8, 8)[0], point, 0.01 * point) << radius;
+    EXPECT_NEAR(frame_of(by_points(c, 16)).at(8, 8)[0], point, 1e-3 * point) << radius;
+  }
+}
+
 // A light as wide as the sky reflects the energy of the lobe, summed over directions.
 TEST(AreaLights, WhiteFurnaceReflectsTheEnergyOfTheLobe) {
   for (const float roughness : {0.1F, 0.5F, 0.8F, 1.0F}) {
@@ -265,7 +341,7 @@ TEST(AreaLights, SmallLightsAreTheirCentre) {
 TEST(AreaLights, HardCasesAreFinite) {
   const glm::vec3 middle(0.0F, 0.0F, 0.0F);
   std::vector<AreaLight> lights;
-  for (const AreaShape shape : {AreaShape::rectangle, AreaShape::disk}) {
+  for (const AreaShape shape : {AreaShape::rectangle, AreaShape::disk, AreaShape::sphere}) {
     lights.push_back(light_at(shape, {0, 0, 1}, {0, 0, 2}, glm::vec2(0.5F)));        // shines away
     lights.push_back(light_at(shape, {0, 0, -1}, middle, glm::vec2(0.5F)));          // below the surface
     lights.push_back(light_at(shape, {0.5F, 0, 1}, {0.5F, 1, 1}, glm::vec2(0.5F)));  // edge-on

@@ -85,7 +85,7 @@ struct DirectionalLight {
 };
 
 /// The outline of an area light. Shaders know it by its number.
-enum class AreaShape : std::int8_t { disk = 0, rectangle = 1 };
+enum class AreaShape : std::int8_t { sphere = -1, disk = 0, rectangle = 1 };
 
 /// How methods integrate an area light; the reference samples it.
 enum class AreaIntegral {
@@ -96,21 +96,23 @@ enum class AreaIntegral {
 /// The allowed number of points of an area light.
 inline constexpr int most_area_points = 256;
 
-/// Light from one side of a flat surface, with equal radiance in all directions (docs/explanation/area-lights.md).
+/// Light from one side of a flat surface, or from a sphere, with equal radiance in all directions
+/// (docs/explanation/area-lights.md).
 struct AreaLight {
   AreaShape shape = AreaShape::rectangle;
   glm::vec3 position{0.0F};                ///< the centre
-  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where it shines, unit
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< where it shines, unit; a sphere shines to all sides
   glm::vec3 across{-1.0F, 0.0F, 0.0F};     ///< unit, along two edges; cross(across, up) is `direction`
   glm::vec3 up{0.0F, 1.0F, 0.0F};          ///< unit, along the other edges
-  glm::vec2 half_size{0.5F};  ///< from the centre to an edge along each, metres; both are the radius of a disk
+  glm::vec2 half_size{
+      0.5F};  ///< from the centre to an edge along each, metres; both are the radius of a disk or a sphere
   glm::vec3 intensity{1.0F};  ///< candela per channel along `direction`: radiance times area
   AreaIntegral integral = AreaIntegral::lobes;
   int points = 16;  ///< for AreaIntegral::points, 1 to most_area_points
 
-  /// Square metres.
+  /// Square metres; of a sphere the area of its outline.
   [[nodiscard]] float area() const {
-    return (shape == AreaShape::rectangle ? 4.0F : std::numbers::pi_v<float>) * half_size.x * half_size.y;
+    return (shape == AreaShape::rectangle ? 4.0F : std::numbers::pi_v<float>)*half_size.x * half_size.y;
   }
 };
 

@@ -38,8 +38,9 @@ struct RayFrom {
 
   [[nodiscard]] std::optional<LightRay> operator()(const AreaLight& light) const {
     const auto ray = (*this)(PointLight{.position = light.position, .intensity = light.intensity, .range = {}});
-    if (!ray || -glm::dot(ray->direction, light.direction) <= 0.0F) return {};
-    return ray;
+    const bool shines_here =
+        light.shape == AreaShape::sphere || (ray && glm::dot(ray->direction, light.direction) < 0.0F);
+    return shines_here ? ray : std::nullopt;
   }
 };
 

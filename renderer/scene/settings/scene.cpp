@@ -65,7 +65,7 @@ constexpr std::array<Word<bool>, 2> shadow_sides{{{false, "drawn"}, {true, "both
 
 constexpr auto horizons = std::to_array<Word<Horizon>>({{Horizon::cut, "cut"}, {Horizon::open, "open"}});
 
-const std::vector<std::string> light_types{"point", "spot", "directional", "rectangle", "disk"};
+const std::vector<std::string> light_types{"point", "spot", "directional", "rectangle", "disk", "sphere"};
 
 // The keys of each type besides `type`, `color` and `intensity`.
 const std::vector<std::vector<std::string>> light_keys{
@@ -73,7 +73,10 @@ const std::vector<std::vector<std::string>> light_keys{
     {"position", "direction", "range", "inner_cone_degrees", "outer_cone_degrees"},
     {"direction"},
     {"position", "direction", "up", "size", "integral", "points"},
-    {"position", "direction", "radius", "integral", "points"}};
+    {"position", "direction", "radius", "integral", "points"},
+    {"position", "radius", "integral", "points"}};
+
+constexpr std::array area_shapes{AreaShape::rectangle, AreaShape::disk, AreaShape::sphere};  // the types from 3 on
 
 constexpr auto area_integrals =
     std::to_array<Word<AreaIntegral>>({{AreaIntegral::lobes, "lobes"}, {AreaIntegral::points, "points"}});
@@ -132,11 +135,11 @@ glm::dvec3 upright(const TomlTable& table, const glm::dvec3& direction) {
 
 AreaLight read_area_light(const TomlTable& table, AreaShape shape, const glm::dvec3& direction) {
   AreaLight light{.shape = shape, .direction = glm::vec3(direction)};
-  const bool is_disk = shape == AreaShape::disk;
+  const bool is_round = shape != AreaShape::rectangle;
   const auto radius = table.number("radius", area_size);
   const auto size = read_pair(table, "size", area_size);
-  if (is_disk ? !radius : !size) refuse_missing(table, is_disk ? "radius" : "size");
-  light.half_size = glm::vec2(is_disk ? glm::dvec2(*radius) : 0.5 * *size);
+  if (is_round ? !radius : !size) refuse_missing(table, is_round ? "radius" : "size");
+  light.half_size = glm::vec2(is_round ? glm::dvec2(*radius) : 0.5 * *size);
   const glm::dvec3 up = upright(table, direction);
   light.across = glm::vec3(glm::cross(up, direction));
   light.up = glm::vec3(up);
@@ -151,11 +154,12 @@ Light read_light(const TomlTable& table) {
   const double strength = table.number("intensity", intensity).value_or(1.0);
   const glm::vec3 power = read_color(table, "color").value_or(glm::vec3{1.0F}) * static_cast<float>(strength);
   const auto towards = read_direction(table, "direction");
-  if (type != 0 && !towards) refuse_missing(table, "direction");
+  const bool has_direction = std::ranges::find(light_keys[type], "direction") != light_keys[type].end();
+  if (has_direction && !towards) refuse_missing(table, "direction");
   if (type == 2) return DirectionalLight{glm::vec3{*towards}, power};
   const glm::vec3 position{required(table, "position", read_vector(table, "position", coordinate_range))};
   if (type > 2) {
-    AreaLight light = read_area_light(table, type == 3 ? AreaShape::rectangle : AreaShape::disk, *towards);
+    AreaLight light = read_area_light(table, area_shapes.at(type - 3), towards.value_or(glm::dvec3(0.0, 0.0, -1.0)));
     light.position = position;
     light.intensity = power;
     return light;

@@ -139,6 +139,20 @@ TEST(SceneSettings, AreaLights) {
   EXPECT_FLOAT_EQ(disk.area(), std::numbers::pi_v<float> / 16.0F);
 }
 
+TEST(SceneSettings, SphereLights) {
+  const auto lights =
+      read("[plane]\n[[light]]\ntype = \"sphere\"\nposition = [0, 1, 2]\nradius = 0.5\nintensity = 3\n").scene.lights;
+  const auto& sphere = std::get<AreaLight>(lights.at(0));
+  EXPECT_EQ(sphere.shape, AreaShape::sphere);
+  EXPECT_EQ(sphere.position, glm::vec3(0, 1, 2));
+  EXPECT_EQ(sphere.half_size, glm::vec2(0.5F));
+  EXPECT_FLOAT_EQ(sphere.area(), std::numbers::pi_v<float> / 4.0F);
+  const std::string start = "[plane]\n[[light]]\ntype = \"sphere\"\nposition = [0, 0, 2]\n";
+  expect_settings_error(start, {"`radius` in [[light]] is missing"});
+  expect_settings_error(start + "radius = 1\ndirection = [0, 0, 1]\n",
+                        {"scene.toml:6", "does not belong to a sphere light"});
+}
+
 TEST(SceneSettings, AreaLightsOutOfRangeAreRefused) {
   const std::string start = "[plane]\n[[light]]\nposition = [0, 0, 2]\n", down = "direction = [0, 0, -1]\n";
   const std::string rectangle = start + down + "type = \"rectangle\"\n", disk = start + down + "type = \"disk\"\n";

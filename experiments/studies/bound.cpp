@@ -57,7 +57,7 @@ BoundPicture draw_bound(const Stage& stage, const StagedMethod& bound, BoundUse 
   const FrameRenderer& frames = bound.frames();
   BoundPicture out{.picture = all ? frames.render(view) : frames.render(view, tiles),
                    .pixels = within(parts.interior, tiles)};
-  leave_out_infinite(out.picture, out.pixels);  // of more texels and lights than it sums
+  leave_out_infinite(out.picture, out.pixels);  // where `exact` reached its limit of texels or lights
   return out;
 }
 

@@ -12,14 +12,15 @@ namespace footprint {
 /// The rates of a generation of AMD's GPUs. A wave has 64 pixels.
 struct Generation {
   std::string_view name;
-  int simds;                  ///< of a compute unit
-  double full_clocks;         ///< of a SIMD for a vector instruction of one wave
-  double quarter_clocks;      ///< for one at a quarter of the rate
-  bool quarter_apart;         ///< those run beside others: a further unit, which takes full_clocks to start one
-  double scalar_clocks;       ///< of a SIMD for a scalar instruction
-  double filtered_per_clock;  ///< bilinear samples of a compute unit, of texels of 32 bits
-  double rate_64, rate_128;   ///< factors on that for texels of 64 and 128 bits
-  double line_bytes;          ///< of a line of the last cache before memory
+  int simds;                     ///< of a compute unit
+  double full_clocks;            ///< of a SIMD for a vector instruction of one wave
+  double quarter_clocks;         ///< for one at a quarter of the rate
+  bool has_transcendental_unit;  ///< a unit of its own runs them beside other instructions, and takes full_clocks to
+                                 ///< start one
+  double scalar_clocks;          ///< of a SIMD for a scalar instruction
+  double filtered_per_clock;     ///< bilinear samples of a compute unit, of texels of 32 bits
+  double rate_64, rate_128;      ///< factors on that for texels of 64 and 128 bits
+  double line_bytes;             ///< of a line of the last cache before memory
 };
 
 /// A product.

@@ -134,9 +134,9 @@ double rate_of(const Generation& generation, int bits) {
 
 // Clocks of a SIMD for a wave. A quarter-rate unit of its own needs the SIMD only to start.
 double alu_clocks(const Generation& generation, const Instructions& work) {
-  const double apart = generation.quarter_apart ? work.quarter * generation.full_clocks : 0.0;
+  const double apart = generation.has_transcendental_unit ? work.quarter * generation.full_clocks : 0.0;
   const double quarter = work.quarter * generation.quarter_clocks;
-  const double vector = work.full * generation.full_clocks + (generation.quarter_apart ? apart : quarter);
+  const double vector = work.full * generation.full_clocks + (generation.has_transcendental_unit ? apart : quarter);
   return std::max({vector, quarter, work.scalar * generation.scalar_clocks});
 }
 

@@ -36,7 +36,7 @@ struct Pose {
 };
 
 /// animation: index; none: every node has the transform and the weights that the file gives it.
-/// time: seconds; before the first and after the last key the values are theirs.
+/// time: seconds; clamped to the first and last key.
 /// Throws Error (usage) that names the animation: keys that do not rise, a wrong number of values, an animated node
 /// with a matrix.
 [[nodiscard]] Pose pose_at(const GltfDocument& document, const std::optional<std::size_t>& animation, double time);

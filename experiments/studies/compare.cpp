@@ -323,13 +323,13 @@ void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<s
   }
 }
 
-std::optional<AnimationWay> way_of(const PathSettings& path, const Scene& scene) {
+std::optional<AnimationInfo> animation_info(const PathSettings& path, const Scene& scene) {
   if (!path.kind) return {};
-  AnimationWay way{.path = std::string(word_for(animation_paths, *path.kind))};
-  if (path.kind != AnimationPath::orbit && path.kind != AnimationPath::light) return way;
+  AnimationInfo info{.path = std::string(word_for(animation_paths, *path.kind))};
+  if (path.kind != AnimationPath::orbit && path.kind != AnimationPath::light) return info;
   const glm::dvec3 axis = turning_axis(path, scene);
-  way.axis = {axis.x, axis.y, axis.z};
-  return way;
+  info.axis = {axis.x, axis.y, axis.z};
+  return info;
 }
 
 ReferenceInfo reference_info(const ReferenceSettings& reference, const EffectSet& effects) {
@@ -351,7 +351,7 @@ ComparisonHead head_of(const Tools& tools, const RunSettings& settings) {
   head.results.reference = reference_info(settings.reference, stage.effects());
   head.results.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, stage.scene()));
   head.results.timing.frames = settings.timing.repeats;
-  head.results.way = way_of(settings.view.path, stage.scene());
+  head.results.animation = animation_info(settings.view.path, stage.scene());
   std::ranges::copy(tools.reference.warnings, std::back_inserter(head.results.scene.warnings));
   const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
   if (left_out.any())

@@ -108,7 +108,7 @@ std::vector<std::string> warnings_of(const DistanceResult& result) {
 
 // The scales of false-colour images, which an animation has none of.
 void set_error_scales(Results& results, const ComparisonHead& head, const std::vector<DistanceResult>& views) {
-  if (results.way) return;
+  if (results.animation) return;
   double largest_error = 0;
   for (const DistanceResult& result : views) {
     largest_error = std::max(largest_error, result.largest_error);
@@ -242,7 +242,8 @@ Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>
     std::ranges::copy(result.records, std::back_inserter(results.records));
     std::ranges::copy(result.pairs, std::back_inserter(results.pairs));
     std::ranges::copy(result.curve, std::back_inserter(results.supersampling));
-    if (!results.way) append(results.scene.warnings, warnings_of(result));  // ranking_warnings has one for all frames
+    if (!results.animation)
+      append(results.scene.warnings, warnings_of(result));  // ranking_warnings has one for all frames
   }
   append(results.scene.warnings, head.last_warnings);
   results.reference.samples /= static_cast<double>(views.size());

@@ -18,11 +18,11 @@ struct RayFrom {
   glm::vec3 point;
 
   [[nodiscard]] std::optional<LightRay> operator()(const PointLight& light) const {
-    const glm::vec3 way = light.position - point;
-    const float distance = glm::length(way);
+    const glm::vec3 to_light = light.position - point;
+    const float distance = glm::length(to_light);
     const bool reaches = distance > 0.0F && (!light.range || distance < *light.range);
     if (!reaches || light.intensity == glm::vec3(0.0F)) return {};
-    return LightRay{way / distance, distance};
+    return LightRay{to_light / distance, distance};
   }
 
   [[nodiscard]] std::optional<LightRay> operator()(const SpotLight& light) const {

@@ -59,7 +59,7 @@ TEST(AnimationTable, HasMeansOverTheFramesThatHaveTheFigure) {
 
 TEST(AnimationTable, NamesTheTimesOfAnAnimation) {
   Results animation = three_frames();
-  animation.way->path = "animation";
+  animation.animation->path = "animation";
   for (Record& record : animation.records) record.seconds = 0.5 * record.frame;
   EXPECT_EQ(path_words(animation), "its animation from 0 to 1 s at distance 1");
 }

@@ -210,7 +210,7 @@ std::string noisy_frames(const Results& results) {
 }
 
 template <typename... Sentences>
-std::vector<std::string> those_said(Sentences... sentences) {
+std::vector<std::string> present_sentences(Sentences... sentences) {
   std::vector<std::string> all{std::move(sentences)...};
   std::erase(all, std::string());
   return all;
@@ -276,9 +276,9 @@ std::optional<std::string> linear_measures_warning(double distance, const std::o
 }
 
 std::vector<std::string> ranking_warnings(const Results& results) {
-  if (results.way) return those_said(noisy_frames(results));
+  if (results.animation) return present_sentences(noisy_frames(results));
   const auto pixels = [](const DistanceRecords& records) { return records.front().get().pixels; };
-  return those_said(
+  return present_sentences(
       at_distances(
           results, [](const auto& records) { return has_not_converged(records); },
           "the reference has not converged: its noise floor exceeds half of the smallest error, so all errors are "
@@ -322,12 +322,12 @@ std::optional<double> closer_share(const Results& results, double distance, cons
 std::vector<std::string> findings(const Results& results, double distance) {
   const DistanceRecords records = records_at(results, distance);
   const DistanceRecords sorted = ranked(records);
-  if (sorted.empty()) return those_said(std::string("No method is ranked."), what_edges_add(records));
+  if (sorted.empty()) return present_sentences(std::string("No method is ranked."), what_edges_add(records));
   const auto worse = std::ranges::find_if(sorted, [&](const Record& r) { return is_better(sorted.front(), r); });
   const auto best = static_cast<std::size_t>(worse - sorted.begin());
   const Record& cheapest =
       *std::ranges::min_element(sorted.begin(), worse, {}, [](const Record& r) { return r.frame_ms.median; });
-  return those_said(
+  return present_sentences(
       has_nothing_to_filter(sorted.front().get().pixels)
           ? std::string("Nothing needs filtering here: no pixel's footprint spans more than one texel of a normal map.")
           : std::string(),

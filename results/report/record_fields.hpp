@@ -159,7 +159,7 @@ void fields(Archive& archive, Is<Results> auto& value) {
   archive("reference", value.reference);
   archive("footprint", value.footprint);
   archive("timing", value.timing);
-  archive("way", value.way);
+  archive("way", value.animation);
   archive("film", value.film);
   archive.derived("experiment", value.experiment);  // judged again from the figures
   if constexpr (!Archive::reads) archive.derived("ranking_warnings", ranking_warnings(value));

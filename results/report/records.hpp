@@ -519,11 +519,11 @@ void fields(auto& archive, Is<TimingInfo> auto& value) {
 }
 
 /// The way of an animation.
-struct AnimationWay {
+struct AnimationInfo {
   std::string path;                                ///< zoom, orbit, light or animation
   std::optional<std::array<double, 3>> axis = {};  ///< of the rotation, unit, in world space; none: nothing turns
 };
-void fields(auto& archive, Is<AnimationWay> auto& value) {
+void fields(auto& archive, Is<AnimationInfo> auto& value) {
   archive("path", value.path);
   archive("axis", value.axis);
 }
@@ -539,8 +539,8 @@ struct Results {
   ReferenceInfo reference;
   std::string footprint;  ///< the footprint filter, as parse_footprint_filter reads it
   TimingInfo timing;
-  std::optional<AnimationWay> way = {};  ///< none: not an animation
-  std::optional<std::string> film = {};  ///< video of its frames, from the output folder; none: not requested
+  std::optional<AnimationInfo> animation = {};  ///< none: not an animation
+  std::optional<std::string> film = {};         ///< video of its frames, from the output folder; none: not requested
   std::vector<SupersamplingPoint> supersampling;
   std::vector<Record> records;
   std::vector<MethodPair> pairs;               ///< every two methods of a distance

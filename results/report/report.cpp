@@ -162,12 +162,12 @@ Json distance_json(const Results& results, double distance) {
 Json run_json(const Results& results, const std::string& folder) {
   Json document = to_json_value(results);
   Json records = Json::array(), distances = Json::array();
-  if (!results.way) {
+  if (!results.animation) {
     for (const Record& record : results.records) records.push_back(display(results, record));
     for (const double distance : distances_of(results)) distances.push_back(distance_json(results, distance));
   }
   return {{"folder", folder},
-          {"path", results.way ? path_words(results) : ""},
+          {"path", results.animation ? path_words(results) : ""},
           {"coordinates", to_json_value(results.coordinates)},
           {"results", std::move(document)},
           {"provenance", to_json_value(provenance(results))},

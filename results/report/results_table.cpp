@@ -445,7 +445,7 @@ std::string summary_notes(const Results& results) {
 }  // namespace
 
 std::string results_table(const Results& results) {
-  if (results.way) return animation_table(results);
+  if (results.animation) return animation_table(results);
   std::string text = fmt::format("# {}\n\n", markdown_escaped(results.scene.name));
   for (const Provenance& line : provenance(results)) {
     text += fmt::format("- {}: {}\n", line.label, markdown_escaped(line.value));
@@ -460,13 +460,13 @@ std::string results_table(const Results& results) {
 
 std::string path_words(const Results& results) {
   const Record &first = results.records.front(), &last = results.records.back();
-  if (results.way->path == "zoom")
+  if (results.animation->path == "zoom")
     return fmt::format("a zoom from distance {:g} to {:g}", first.distance, last.distance);
-  if (results.way->path == "animation")
+  if (results.animation->path == "animation")
     return fmt::format("its animation from {:g} to {:g} s at distance {:g}", first.seconds, last.seconds,
                        last.distance);
   return fmt::format("{} by {:g} degrees at distance {:g}",
-                     results.way->path == "orbit" ? "an orbit" : "the lights turn", last.degrees, last.distance);
+                     results.animation->path == "orbit" ? "an orbit" : "the lights turn", last.degrees, last.distance);
 }
 
 std::string animation_table(const Results& results) {

@@ -50,7 +50,7 @@ Results example_animation() {
   animation.reference = {.spp = 16, .filter = "after_shading", .seed = 1, .standard_errors = {0.02, 0.02, 0.02}};
   animation.footprint = "anisotropic:8";
   animation.timing = {.frames = 0, .processes = 1};
-  animation.way = {.path = "orbit", .axis = std::array{0.0, 1.0, 0.0}};
+  animation.animation = {.path = "orbit", .axis = std::array{0.0, 1.0, 0.0}};
   for (int frame = 0; frame < 3; ++frame) {
     animation.records.push_back(record_of_frame(frame, "a", 0.1 * (frame + 1), "a"));
     animation.records.push_back(record_of_frame(frame, "b:x=1,\"y\"", 0.3, "b"));

@@ -21,7 +21,7 @@ namespace footprint {
 /// lobes, padded with zeros. Throws Error (usage): more lobes, or parameters out of range (docs/reference/scenes.md).
 [[nodiscard]] std::vector<glm::vec4> facet_lobe_block(const Material& material);
 
-/// What anisotropy() of surface_material.glsl returns: alpha of the constant lobe along and across the direction of
+/// The value of anisotropy() in surface_material.glsl: alpha of the constant lobe along and across the direction of
 /// stretch, and the direction's x and y. Without anisotropy both alphas are the lobe's.
 [[nodiscard]] glm::vec4 anisotropy_of(const Material& material);
 

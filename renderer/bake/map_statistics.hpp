@@ -34,8 +34,8 @@ struct LevelStatistics {
 /// values: the first channel counts; of the size of the normals, else Error (usage).
 [[nodiscard]] std::optional<double> correlation_with_spread(const Image& normals, const Image& values, int level);
 
-/// Of one texel's own lobe, one about the mean normal, one that the variance widens, and one that the slopes'
-/// covariance widens (LEAN): root mean squares of the difference, over the mean of the exact values.
+/// The errors of four lobes: one texel's own, one about the mean normal, one that the variance widens, and one that the
+/// slopes' covariance widens (LEAN). Each is the root mean square of the difference, over the mean of the exact values.
 using LobeErrors = std::array<double, 4>;
 
 /// The errors over 1024 blocks of 2^level x 2^level texels, above level 5 fewer, at places from a fixed seed, for GGX

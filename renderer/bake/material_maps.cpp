@@ -26,7 +26,7 @@ TextureCoordinates coordinates_of(const std::optional<TextureMap>& map) {
   return map ? map->coordinates : TextureCoordinates{};
 }
 
-// Of a material without a coat, one of weight 0.
+// The material's coat; one of weight 0 if it has none.
 const ClearCoat& coat_of(const Material& material) {
   static const ClearCoat none{.weight = 0.0F};
   return material.coat ? *material.coat : none;

@@ -135,8 +135,7 @@ struct Method {
   std::function<std::optional<std::vector<Image>>(const Material& material, const Options& options)> roughness_mips =
       [](const Material& /*material*/, const Options& /*options*/) { return std::optional<std::vector<Image>>(); };
 
-  /// Of a method from a file: the hash of the file and of its images, for keys of caches. Empty: a method of the
-  /// program.
+  /// The hash of a method's file and of the file's images, for keys of caches. Empty: a method of the program.
   std::string file_content = {};
 
   /// Lobes of the effective NDF that the shader evaluates per pixel, with isotropic filtering.

@@ -52,7 +52,7 @@ Prefiltered mean_lobe(const Job& job) {
                                     roughness_coordinates(job.material))}};
 }
 
-// What the mip chain of a varying roughness averages.
+// The texture of the mean that `averages` asks for; empty for a mean of variances.
 Prefiltered averaged_roughness(const Job& job) {
   const std::string& averages = job.options.word("averages");
   if (averages != "variance" && job.options.word("roughness") == "moments") {

@@ -44,7 +44,8 @@ enum class RoughnessMean {
 [[nodiscard]] OptionSpec roughness_mean_option();
 [[nodiscard]] RoughnessMean roughness_mean(const Options& options);
 
-/// What a texel stores of a slope variance: it in units of stored_lobe_variance, or the reciprocal of that.
+/// The value that a texel stores for a slope variance: the variance in units of stored_lobe_variance, or the reciprocal
+/// of that.
 [[nodiscard]] float stored_roughness(float variance, RoughnessMean mean);
 
 /// The name of the texture of lobe_variance.glsl that stores them: `lobe_variance` or `lobe_concentration`.

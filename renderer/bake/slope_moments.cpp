@@ -21,7 +21,8 @@ constexpr double default_steepest = 3.0;  // 71.6 degrees: the README of the met
 constexpr int moment_channels = 5;
 constexpr std::size_t weight_channel = 5;
 
-// Of the base lobe whose round mean has a slope variance, in the tangent frame of the surface. 0 stays 0.
+// The slope covariance of the base lobe whose round mean has `variance`, in the tangent frame of the surface. 0 stays
+// 0.
 glm::dmat2 base_covariance(double variance, const glm::dvec2& stretch) {
   return variance * glm::dmat2(1.0 + stretch.x, stretch.y, stretch.y, 1.0 - stretch.x);
 }
@@ -40,7 +41,7 @@ Image texel_moments(const Image& normals, const Image& variance, double steepest
     float* const to = &out.texels[i * (weight_channel + 1)];
     to[slope_x] = static_cast<float>(b.x);
     to[slope_y] = static_cast<float>(b.y);
-    // Of the rounded slope, so that M - B B^T of one texel is as near to 0 as rounding allows.
+    // Products of the rounded slope, so that M - B B^T of one texel is as near to 0 as rounding allows.
     to[slope_xx] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_x] + v[0][0]);
     to[slope_xy] = static_cast<float>(static_cast<double>(to[slope_x]) * to[slope_y] + v[0][1]);
     to[slope_yy] = static_cast<float>(static_cast<double>(to[slope_y]) * to[slope_y] + v[1][1]);

@@ -66,7 +66,7 @@ std::string difference_of(const std::vector<std::string>& there, const std::vect
   return fmt::format("{}", fmt::join(parts, ", and "));
 }
 
-// What a program declares of a material's maps: names and kinds. All materials of a scene share one program.
+// The declarations of a material's maps in a program: names and kinds. All materials of a scene share one program.
 std::vector<std::string> textures_declared(const Prefiltered& maps) {
   std::vector<std::string> names;
   for (const PrefilteredTexture& texture : maps.textures)

@@ -131,7 +131,7 @@ EngineMaps engine_maps(const BakedMethod& baked, const Material& material) {
 ReplacedMaps replaced_maps(const EngineMaps& maps, const Material& material, int level) {
   const PrefilteredTexture &normal = maps.textures.at(0), &rough = maps.textures.at(1);
   const std::size_t at = std::min(static_cast<std::size_t>(level), normal.levels.size() - 1);
-  // Of a roughness map that is finer than the normal map the level as large as the normal map's; unless nothing is cut.
+  // A roughness map that is finer than the normal map begins at the normal map's size, unless nothing is cut.
   const std::size_t finer = at == 0 ? 0 : rough.levels.size() - normal.levels.size();
   ReplacedMaps replaced{.material = material.name,
                         .normal = {},

@@ -97,7 +97,7 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder);
 /// The GLSL that reads the maps, with documentation.
 [[nodiscard]] std::string module_text(const BakeToFiles& bake);
 
-/// The same in a language: GLSL as module_text; else a fragment shader with the entry point of bare_main.glsl, its
+/// The module in a language: GLSL as module_text; else a fragment shader with the entry point of bare_main.glsl, its
 /// inputs listed in front of it; SPIR-V as bytes, which are not listed. Throws Error (machine): glslang or SPIRV-Cross
 /// refuses the module.
 [[nodiscard]] std::string shader_text(const BakeToFiles& bake, ShaderLanguage language);
@@ -117,8 +117,8 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder);
 /// texture of a frame build.
 [[nodiscard]] std::vector<std::uint8_t> ktx2_bytes(const PrefilteredTexture& texture);
 
-/// Where the levels of a KTX2 file begin, finest first. Checks the file against a texture and against its own length,
-/// before anything of its size is allocated.
+/// The offsets of the levels of a KTX2 file, finest first. Checks the file against a texture and against its own
+/// length, before anything of its size is allocated.
 /// form: storage, channels, layers and sizes of levels that the file must have; its texels are not used.
 /// Throws Error (usage), without a place: not a KTX2 file, another format or size, supercompression, a level beyond its
 /// end; (machine): it cannot be read.

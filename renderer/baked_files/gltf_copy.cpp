@@ -93,7 +93,7 @@ std::size_t add_texture(Json& document, const std::string& stem, const std::vect
   return document["textures"].size() - 1;
 }
 
-// As the normal texture is looked up, but with another image.
+// A texture reference that is looked up as the normal texture, but with another image.
 Json looked_up_as(const Json& normal, std::size_t texture) {
   Json info{{"index", texture}};
   for (const char* member : {"texCoord", "extensions"}) {

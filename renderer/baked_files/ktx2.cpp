@@ -38,7 +38,7 @@ void append_long(Bytes& out, std::uint64_t value) { append(out, {value & 0xFFFFF
 
 void append(Bytes& out, const auto& bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); }
 
-// Of a texel, or of a block.
+// The bytes of a texel, or of a block.
 std::size_t texel_size(const PrefilteredTexture& texture) {
   return level_bytes(texture.storage, texture.channels, 1, 1);
 }
@@ -100,7 +100,7 @@ Bytes key_values() {
   return out;
 }
 
-// Where each level's bytes begin, `first` being the first free byte: the coarsest comes first.
+// The offset of each level's bytes, `first` being the first free byte: the coarsest comes first.
 std::vector<std::size_t> level_offsets(const PrefilteredTexture& texture, std::size_t first) {
   const std::size_t step = std::lcm(texel_size(texture), std::size_t{4});
   std::vector<std::size_t> offsets(texture.levels.size());

@@ -68,7 +68,8 @@ constexpr std::array<Form, 4> forms{{
      "In set 0 the uniforms are the std140 block of binding 0, and texture n has binding n + 1."},
 }};
 
-// What the source says of an input: the comment behind its declaration, and a value that is assigned to it there.
+// The description of an input in the source: the comment behind its declaration, and a value that is assigned to it
+// there.
 std::string description(const std::string& glsl, const ShaderInput& input) {
   const std::string name = input.name.substr(0, input.name.find('['));
   const std::regex declaration(R"(\n[^\n/]*\b(?:uniform|in|out) \w+ )" + name +

@@ -24,7 +24,7 @@ class Error : public std::runtime_error {
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
   [[nodiscard]] const std::string& hint() const noexcept { return hint_; }
 
-  /// The same error seen from further out: `outer` is put before the place ("scene.gltf, material 3").
+  /// Returns the error as seen from further out: `outer` is put before the place ("scene.gltf, material 3").
   [[nodiscard]] Error within(const std::string& outer) const;
 
  private:

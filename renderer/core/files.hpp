@@ -19,7 +19,7 @@ namespace footprint {
 /// file.
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::uint8_t> content);
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
-/// The same for content that `write` produces piece by piece. Exceptions from `write` count as failures.
+/// Replaces `file` by content that `write` produces piece by piece. Exceptions from `write` count as failures.
 void write_file_atomically(const std::filesystem::path& file, const ByteWriter& write);
 
 /// The whole content of a file; empty if there is none.
@@ -40,11 +40,11 @@ class OutputFolder {
   OutputFolder(OutputFolder&&) = delete;
   OutputFolder& operator=(OutputFolder&&) = delete;
 
-  /// Where to write until the commit.
+  /// The folder to write to until the commit.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return staging_.path(); }
-  /// The same folder for a run, with its losses.
+  /// That folder as one of a run, with its losses.
   [[nodiscard]] const RunFolder& run() const noexcept { return staging_; }
-  /// Where it will be: absolute, normalised.
+  /// The final place: absolute, normalised.
   [[nodiscard]] const std::filesystem::path& final_path() const noexcept { return final_; }
 
   /// Files of the final folder, relative to it, that an earlier run wrote. The commit removes those that this run does

@@ -35,11 +35,11 @@ class RunFolder {
   /// which is a loss, and tries again. Errors (machine): it still cannot be written.
   void write_document(const std::filesystem::path& name, std::string_view content) const;
 
-  /// What could not be written, and what is not finite, in order.
+  /// The errors of files that could not be written or are not finite, in order.
   [[nodiscard]] const std::vector<Error>& losses() const noexcept { return *losses_; }
   /// One line about all losses for a page's notes, with places from the top folder; empty without any.
   [[nodiscard]] std::string losses_text() const;
-  /// What happened to the files of all losses: "were not written", "are not finite", or either.
+  /// The fault of the files of all losses: "were not written", "are not finite", or either.
   [[nodiscard]] std::string_view faults_text() const;
 
  private:

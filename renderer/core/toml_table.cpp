@@ -142,7 +142,7 @@ double TomlTable::checked(const Node& node, std::string_view key, NumberRange ra
   return *value;
 }
 
-// What `convert` makes of a key's value, which refuses by an empty result; empty too if the key is missing.
+// Returns a key's value as `convert` makes it, which refuses by an empty result; empty too if the key is missing.
 template <class Convert>
 auto TomlTable::read(std::string_view key, const std::string& message, const std::string& hint,
                      const Convert& convert) const {

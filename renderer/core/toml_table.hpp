@@ -85,7 +85,7 @@ class TomlTable {
   template <typename Node>
   [[nodiscard]] double checked(const Node& node, std::string_view key, NumberRange range) const;
   [[nodiscard]] std::string full_name(std::string_view key) const;
-  /// As the header of a table in this one is written: "brdf.lobe".
+  /// The name of a key as the header of a table is written: "brdf.lobe".
   [[nodiscard]] std::string path_of(std::string_view key) const;
 
   std::shared_ptr<const toml::table> table_;  // shares the whole file

@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 constexpr int view_columns = 40, width_rows = 32;
 constexpr double widest_angle = 2.0 * pi / 3.0;
-// Of the directions that are drawn, over half of the azimuths: the other half is their mirror image.
+// Rings and sectors of the directions that are drawn, over half of the azimuths: the other half is their mirror image.
 constexpr int fit_rings = 12, fit_sectors = 12;        // of the fit
 constexpr int energy_rings = 96, energy_sectors = 48;  // of the energies
 constexpr double stiffness = 0.02;                     // of the turn: in narrow lobes it and the shear are one
@@ -81,8 +81,8 @@ struct MirroredView {
   [[nodiscard]] double density(const glm::dvec3& h) const { return ggx(alpha * alpha, h.z) / (4.0 * area); }
 };
 
-// What a lobe reflects of `across` x `around` directions drawn from each of `views`, which mirror a view in normals of
-// GGX.
+// The light that a lobe reflects from `across` x `around` directions drawn from each of `views`, which mirror a view in
+// normals of GGX.
 std::vector<Drawn> draws(const ReflectedLobeKind& kind, double alpha, const std::vector<MirroredView>& views,
                          int across, int around) {
   const Lobe lobe = lobe_from_alpha(kind.distribution, static_cast<float>(alpha));

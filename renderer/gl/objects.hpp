@@ -109,7 +109,7 @@ class Texture {
   /// texels: rows from v = 0, tightly packed, layer after layer.
   /// format, type: as for glTextureSubImage2D.
   void upload(int level, int width, int height, GLenum format, GLenum type, const void* texels);
-  /// Of a plain texture in a compressed format: its blocks of 4 x 4 texels.
+  /// Uploads a level of a plain texture in a compressed format: its blocks of 4 x 4 texels.
   void upload_blocks(int level, int width, int height, GLenum internal_format, std::span<const std::uint8_t> blocks);
   [[nodiscard]] GLuint name() const { return handle_.name(); }
   [[nodiscard]] int width() const { return width_; }

@@ -168,7 +168,7 @@ std::string code_of(const CompilingDevice& on, const vk::PipelineExecutableInfoK
   throw vulkan_error(on.name, "does not report the code of its compiler ACO");
 }
 
-// What the driver's exceptions say, as an Error.
+// Turns the driver's exceptions into an Error.
 auto translated(const auto& work) {
   try {
     return work();

@@ -29,9 +29,9 @@ struct VulkanCompiler {
   std::function<CompiledStage(const SpirvProgram&)> compile;
 };
 
-/// Of the first device of the Vulkan driver that the loader finds. Mesa's driver for AMD creates a device without
-/// hardware for the chip that the variable RADV_FORCE_FAMILY names; so a process has one chip. libvulkan is loaded at
-/// run time. Nothing but pipelines is requested, because such a device answers nothing else.
+/// The compiler of the first device of the Vulkan driver that the loader finds. Mesa's driver for AMD creates a device
+/// without hardware for the chip that the variable RADV_FORCE_FAMILY names; so a process has one chip. libvulkan is
+/// loaded at run time. Nothing but pipelines is requested, because such a device answers nothing else.
 /// Throws Error (machine): libvulkan, a driver or a device is missing, with the package to install; or the build has no
 /// compilers (compilers.hpp).
 [[nodiscard]] VulkanCompiler vulkan_compiler();

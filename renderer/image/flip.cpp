@@ -21,7 +21,7 @@ namespace {
 using std::numbers::pi;
 using Color = std::array<double, 3>;
 
-// Of linear sRGB's primaries under D65.
+// XYZ of linear sRGB, by its primaries under D65.
 Color xyz_of(const Color& rgb) {
   return {(10135552.0 * rgb[0] + 8788810.0 * rgb[1] + 4435075.0 * rgb[2]) / 24577794.0,
           (2613072.0 * rgb[0] + 8788810.0 * rgb[1] + 887015.0 * rgb[2]) / 12288897.0,
@@ -265,7 +265,7 @@ double tone(double x) {
   return value * (k0 * value + k1) / (value * (k3 * value + k4) + k5);
 }
 
-// Where the curve is at `t`: the root above 0 of (k0 - t k3) x^2 + (k1 - t k4) x - t k5.
+// The argument at which the curve is `t`: the root above 0 of (k0 - t k3) x^2 + (k1 - t k4) x - t k5.
 double tone_inverse(double t) {
   const double a = k0 - t * k3, b = k1 - t * k4, c = -t * k5;
   return (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);

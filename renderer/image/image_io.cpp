@@ -79,7 +79,7 @@ void require_chain(const ExrChain& chain) {
     throw std::logic_error("every channel has a name");
 }
 
-// Of linear values, without the date: OpenImageIO stamps the hour, so equal images would be different files.
+// Declares linear values, without the date: OpenImageIO stamps the hour, so equal images would be different files.
 void describe_exr(OIIO::ImageSpec& spec) {
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");

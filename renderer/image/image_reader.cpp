@@ -145,7 +145,7 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
-// What is left out of a file, one line each.
+// Notes on what is left out of a file, one line each.
 std::vector<std::string> notes_of(const OpenedImage& file, const Reading& reading, bool turned) {
   const Declarations& declared = file.declared();
   std::vector<std::string> notes = declared.left_out;

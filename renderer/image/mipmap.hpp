@@ -28,8 +28,8 @@ struct MipTaps {
 /// double precision. Errors (usage): an image without texels; (machine): the chain does not fit in memory.
 [[nodiscard]] std::vector<Image> mip_chain(Image finest);
 
-/// As mip_chain, but the last channel is a weight: other channels are weighted means, and the weight is the mean
-/// weight. Texels of weight 0 (invalid normals) do not contribute; if all weights are 0, the plain mean is used.
+/// The chain of mip_chain, but the last channel is a weight: other channels are weighted means, and the weight is the
+/// mean weight. Texels of weight 0 (invalid normals) do not contribute; if all weights are 0, the plain mean is used.
 [[nodiscard]] std::vector<Image> weighted_mip_chain(Image finest);
 
 /// An image of another size by its nearest texels: those of a smaller one are repeated.

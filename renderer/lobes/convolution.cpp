@@ -32,7 +32,7 @@ ExponentialIntegrals exponential_integrals(double x) {
   return {first, second, 0.5 * (1.0 - x * second)};
 }
 
-// The alpha of the peak. Pi times the density at the axis is the integral over u of
+// The alpha of the GGX lobe with the peak. Pi times the density at the axis is the integral over u of
 // kappa e^{-kappa u} alpha^2 / (alpha^2 + 2 b u - b u^2)^2 with b = 1 - alpha^2, to the first order in the last term.
 double ggx_alpha(double alpha, double kappa) {
   const double b = 1.0 - alpha * alpha;
@@ -42,8 +42,8 @@ double ggx_alpha(double alpha, double kappa) {
   return 1.0 / std::sqrt((kappa * second + x * (first - 2.0 * second + third)) / (2.0 * b));
 }
 
-// The same for Beckmann's e^{-tan^2 / alpha^2} / (alpha^2 cos^4), with tan^2 = 2 u + 3 u^2 and 1 / cos^4 = 1 + 4 u to
-// the first order beyond a Gaussian in the angle.
+// The alpha of the Beckmann lobe with the peak, from e^{-tan^2 / alpha^2} / (alpha^2 cos^4), with tan^2 = 2 u + 3 u^2
+// and 1 / cos^4 = 1 + 4 u to the first order beyond a Gaussian in the angle.
 double beckmann_alpha(double alpha, double kappa) {
   const double alpha2 = alpha * alpha;
   const double narrowness = 2.0 / alpha2 + kappa;  // of the Gaussian in u

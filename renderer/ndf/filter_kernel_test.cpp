@@ -105,8 +105,8 @@ TEST(FilterKernel, BoxesApproachTheParallelogram) {
   }
 }
 
-// As many lookups as it is called for, at every size: pairs of texels of the level are never too few, nor many too
-// many.
+// Areas take as many lookups as they are called for, at every size: pairs of texels of the level are never too few, nor
+// many too many.
 TEST(FilterKernel, AreasTakeTheLookupsThatTheyAreCalledFor) {
   for (const int lookups : {1, 2, 3, 8}) {
     double most = 0.0;

@@ -50,11 +50,11 @@ void check_footprint(const FootprintRect& rect, const std::string& place);
 /// texture coordinates; Error (machine) if memory is too small.
 [[nodiscard]] FootprintTexels texels_under(const Material& material, const FootprintRect& rect);
 
-/// The same footprint in the coordinates of the roughness map: centre and edge vectors. Throws Error (usage) as
-/// texels_under does.
+/// A footprint in the coordinates of the roughness map: centre and edge vectors.
 struct MappedFootprint {
   glm::dvec2 centre, along_u, along_v;
 };
+/// Maps `rect` to the roughness map. Throws Error (usage) as texels_under does.
 [[nodiscard]] MappedFootprint roughness_footprint(const Material& material, const FootprintRect& rect);
 
 /// Merges facets that are closer than about `spacing` (radians) into their mean normal, which is not renormalised. For

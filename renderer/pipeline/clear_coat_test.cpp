@@ -218,7 +218,7 @@ TEST(ClearCoat, BumpsSeenAlongTheSurfaceReflectByTheirOwnFresnelTerm) {
     return covered_mean(renderer.frame(base_surface())) / covered_mean(renderer.reference(1024).mean);
   };
   EXPECT_NEAR(ratio_of(0.15F), 1.0, 0.25);
-  // Of a rough coat the tails are missing of those that hardly face him and reflect nearly all: base-brdf.md.
+  // A rough coat loses the tails of normals that hardly face the viewer and reflect nearly all: base-brdf.md.
   EXPECT_NEAR(ratio_of(0.4F), 1.0 / 3.0, 0.05);
 }
 

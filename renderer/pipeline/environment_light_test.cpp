@@ -361,7 +361,7 @@ TEST(EnvironmentLight, GgxFacetsKeepTheEnergyOfAFurnace) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 0.02);
 }
 
-// Of light that is below the horizon alone nothing may be reflected; at most 11% of it is. (A coarse map would
+// Light that is below the horizon alone may not be reflected; at most 11% of it is. (A coarse map would
 // blur across the horizon by itself.)
 TEST(EnvironmentLight, LightFromBelowTheHorizonStaysOut) {
   Image map(512, 256, 3);

@@ -76,7 +76,7 @@ void read_texels(const gl::Texture& from, PrefilteredTexture& into);
 /// Uploads textures, those with the same texels once. Textures of a frame build are never shared.
 class SharedUploads {
  public:
-  /// As `upload`; `bytes` grows only by new texels.
+  /// Uploads like the function `upload`; `bytes` grows only by new texels.
   [[nodiscard]] GpuTexture upload(const PrefilteredTexture& texture);
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 

@@ -89,7 +89,7 @@ TEST(GpuVisibility, AWallIsInAMirror) {
   EXPECT_GT(relative_rmse(TestRenderer(open, {picture_size, picture_size}).frame(base_surface()), reference), 0.3);
 }
 
-// Of a Lambert surface's irradiance under a white sky what 4000 rays say.
+// A Lambert surface's irradiance under a white sky, as a share of the unhidden one, by 4000 rays.
 double irradiance_by_rays(const Occluders& occluders, const glm::vec3& point) {
   constexpr int rays = 4000;
   int clear = 0;

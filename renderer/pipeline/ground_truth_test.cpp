@@ -106,7 +106,7 @@ TEST_P(GroundTruth, ReferenceAgreesWithinItsStandardError) {
       variances += std::pow(picture.standard_error.at(x, y)[0], 2);
     }
   }
-  // Of 64 pixels with four blocks each.
+  // The sums are over 64 pixels with four blocks each.
   EXPECT_LT(squares, 2.0 * variances);
 }
 

@@ -77,7 +77,7 @@ glm::dvec2 offset_of(std::uint32_t pass, std::uint32_t seed) {
           scrambled(point.y, combined_seed(seed, 1)) * fixed_point_step - 0.5};
 }
 
-// Of a column or row: its first binary digit in bit 0, as the sequence's digits are.
+// The digits of a column or row, its first binary digit in bit 0 as in the sequence.
 std::uint32_t digits_of(int grid, int place) {
   const auto p = static_cast<std::uint32_t>(place);
   return grid == 4 ? (p >> 1U) | ((p & 1U) << 1U) : p;

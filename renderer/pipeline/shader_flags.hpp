@@ -24,7 +24,7 @@ enum class Sampling {
   bilinear,       ///< shades the bilinear mean of the finest level's values, so it interpolates the normal first
 };
 
-/// Those of the reference.
+/// The words for the reference's filters.
 inline constexpr auto reference_filters = std::to_array<Word<Sampling>>(
     {{Sampling::after_shading, "after_shading"}, {Sampling::nearest, "nearest"}, {Sampling::bilinear, "bilinear"}});
 
@@ -35,7 +35,7 @@ enum class EnvironmentUse {
   dense,        ///< reference: 6 x 32 x 32 directional lights, all of them for each sample
 };
 
-/// How the reference integrates.
+/// The words for the reference's integration of an environment.
 inline constexpr auto reference_integrals =
     std::to_array<Word<EnvironmentUse>>({{EnvironmentUse::sampled, "sampled"}, {EnvironmentUse::dense, "dense"}});
 

@@ -84,7 +84,7 @@ struct ForwardShaders {
 [[nodiscard]] std::string bare_module(const ShaderVariant& variant, const ShaderModule& module, const Options& options,
                                       const Prefiltered& prefiltered);
 
-/// The same behind a version line, with the entry point of bare_main.glsl: a whole fragment shader.
+/// The text of bare_module behind a version line, with the entry point of bare_main.glsl: a whole fragment shader.
 [[nodiscard]] std::string bare_fragment(const ShaderVariant& variant, const ShaderModule& module,
                                         const Options& options, const Prefiltered& prefiltered);
 

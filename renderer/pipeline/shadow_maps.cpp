@@ -39,7 +39,7 @@ gl::Texture make_maps(const gl::ContextInfo& context, const ShadowViews& views, 
           static_cast<int>(std::max<std::size_t>(views.views.size(), 1))};
 }
 
-// Which way round the front of a triangle is on a map. `world_to_map` takes points to (u w, v w, z, w); a triangle that
+// The winding of a front-facing triangle on a map. `world_to_map` takes points to (u w, v w, z, w); a triangle that
 // faces the light is seen counter-clockwise where the three rows of u w, v w and w make a left-handed frame, w growing
 // along the map's axis.
 GLenum front_face(const ShadowView& view) {

@@ -21,7 +21,7 @@
 namespace footprint {
 namespace {
 
-// Which of the two sets of texture coordinates the maps of a material read.
+// Returns which of the two sets of texture coordinates the maps of a material read.
 std::array<bool, 2> sets_read_by(const Material& material) {
   std::array<bool, 2> read{};
   for (const TextureMap* map : maps_of(material)) read.at(static_cast<std::size_t>(map->coordinates.set)) = true;

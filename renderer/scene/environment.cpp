@@ -247,7 +247,8 @@ struct Found {
   std::vector<std::pair<glm::ivec2, glm::vec3>> dimmed;
 };
 
-// Of a sky in which there is light at all: `all` of it, as it was at first.
+// The brightest sun of a sky; none if its light or its contrast is too little. all: the light of the whole sky before
+// any sun was taken from it, above 0.
 std::optional<Found> brightest_sun(const Sky& sky, double all) {
   const glm::ivec2 brightest = sky.brightest();
   // A sun's middle may be between texels, so the disc is centred again on the mean of the first one.

@@ -38,7 +38,7 @@ struct Environment {
 /// The mean over all directions.
 [[nodiscard]] glm::dvec3 mean_radiance(const Image& radiance);
 
-/// The same radiance from everywhere.
+/// An environment with the same radiance from everywhere.
 [[nodiscard]] Environment constant_environment(const glm::vec3& radiance);
 
 /// The settings of `sky_environment`.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int side = 64;
 
-// As a file of 8 bits a channel is read.
+// Random texels as a file of 8 bits a channel is read.
 Image bytes_as_floats(int channels) {
   Image image(side, side, channels);
   std::uint32_t state = 1;

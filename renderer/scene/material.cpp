@@ -25,7 +25,7 @@ float variance_about_normal(const Material& material) {
   return variance / weight;
 }
 
-// Of a constant material or another.
+// The maps that a material has, which may be const.
 template <class Map, class AnyMaterial>
 std::vector<Map*> maps_in(AnyMaterial& material) {
   std::vector<Map*> maps;

@@ -147,7 +147,7 @@ struct Material {
 /// alpha: the material's own, across the direction of anisotropy.
 [[nodiscard]] Alphas alphas_of(const Material& material, double alpha);
 
-/// Those of a material with constant roughness.
+/// The alphas of a material with constant roughness.
 [[nodiscard]] Alphas alphas_of(const Material& material);
 
 /// The map of metalness, in its second channel. Null if it is constant.

@@ -19,7 +19,7 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 const glm::vec2& coordinates_of(const Vertex& vertex, int set) { return set == 1 ? vertex.uv1 : vertex.uv0; }
 
-/// Where a map with `coordinates` is looked up at a vertex.
+/// The place at which a map with `coordinates` is looked up for a vertex.
 glm::vec2 map_position(const Vertex& vertex, const TextureCoordinates& coordinates) {
   return coordinates.transform * glm::vec3{coordinates_of(vertex, coordinates.set), 1.0F};
 }

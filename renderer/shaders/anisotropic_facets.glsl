@@ -5,8 +5,8 @@
 
 // Alpha along and across the direction, of the base lobe whose round mean has the parameter `lobe`; and that direction.
 #if ANISOTROPY_VARIATION
-// Of what is shaded: (along^2 - across^2) / (along^2 + across^2) times the direction's cosine and sine of twice its angle
-// (stretch_of in renderer/lobes/lobe.hpp). Whoever calls `effective` sets it first.
+// The stretch of what is shaded: (along^2 - across^2) / (along^2 + across^2) times the direction's cosine and sine of
+// twice its angle (stretch_of in renderer/lobes/lobe.hpp). Whoever calls `effective` sets it first.
 vec2 stretch = vec2(0.0);
 vec2 facetAlphas(float lobe) {
   float r = min(length(stretch), 1.0);

@@ -184,7 +184,7 @@ float areaGeometry(Effective e, NormalLobe lobe, vec3 wi, vec3 wo) {
   return table > 0.0 ? min(lobeGeometry(e, lobe, h, wi, wo) / table, 4.0) : 0.0;
 }
 
-// What one lobe reflects of a light of radiance 1.
+// The light that one lobe reflects from a light of radiance 1.
 vec3 areaLobe(Effective e, NormalLobe lobe, AreaOutline o, vec3 f0, vec3 wo) {
   AreaCosine fit = areaCosine(lobe, wo);
   vec4 planes[3];

@@ -15,7 +15,8 @@ bool meetsArea(AreaLight light, vec3 direction, out vec3 d) {
   return light.direction_shape.w > 0.5 ? max(abs(at.x), abs(at.y)) < 1.0 : dot(at, at) < 1.0;
 }
 
-// What a direction to the light adds, over the sum of both densities. A light without area has that of its point.
+// The light that a direction to the light adds, over the sum of both densities. A light without area has that of its
+// point.
 vec3 weighedArea(SurfacePoint p, AreaLight light, vec3 wi, float spread) {
   if (spread <= 0.0 || !reachesFacets(wi)) return vec3(0.0);
   return reflectance(p, wi) * light.intensity.rgb / (spread + light.position_area.w * lobeDirectionDensity(p, wi));

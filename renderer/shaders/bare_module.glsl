@@ -5,7 +5,7 @@
 // The footprint of a map at `uv`. Uses screen derivatives, so all pixels of a quad must call it.
 Footprint footprintAt(vec2 uv) { return Footprint(uv, dFdx(uv), dFdy(uv)); }
 
-// The same uv for all maps of the material; set single members if maps differ.
+// The footprints of all maps of the material at one uv; set single members if maps differ.
 Footprints footprintsAt(vec2 uv) {
   Footprint f = footprintAt(uv);
   Footprints all;
@@ -56,8 +56,8 @@ void lookAround(vec3 at, vec3 eye, mat3 frame, mat3 world_to_camera, inout Footp
   fetchNeighbourFrames(frame, f);
 }
 
-// The same for a light whose half vector changes over the screen: at position source.xyz (w 1) or in that direction (w
-// 0).
+// f * cos of both terms for a light whose half vector changes over the screen: at position source.xyz (w 1) or in that
+// direction (w 0).
 vec3 reflectedTowards(Effective e, Surface s, vec3 wi, vec3 wo, vec4 source) {
 #if !HORIZON_OPEN
   if (wi.z <= 0.0) return vec3(0.0);

@@ -157,7 +157,7 @@ vec4 fetch(sampler2DArray map, int layer, Footprint f) {
 #endif
 
 #if TEXTURE_ARRAYS
-// As `fetch`, limited to levels up to `coarsest`, which hardware filters cannot be.
+// Reads a layer like `fetch`, limited to levels up to `coarsest`, which hardware filters cannot be.
 vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
 #if FILTER_HARDWARE
   if (coarsest >= any_level) return fetch(map, layer, f);
@@ -172,9 +172,10 @@ vec4 fetchUpTo(sampler2DArray map, int layer, Footprint f, float coarsest) {
 vec2 texel_draw;  // of this sample, uniform in [0, 1)
 #endif
 
-// Where the finest level of a map is read. A sample of the reference draws one texel with bilinear weights by a sampler
-// that must be `nearest`: the expectation of the shaded value is then the bilinear filter of radiance. Maps with the
-// same size and coordinates draw the same texel. At a point, the sampler selects nearest or bilinear filtering.
+// The place at which the finest level of a map is read. A sample of the reference draws one texel with bilinear weights
+// by a sampler that must be `nearest`: the expectation of the shaded value is then the bilinear filter of radiance.
+// Maps with the same size and coordinates draw the same texel. At a point, the sampler selects nearest or bilinear
+// filtering.
 vec2 finestUv(vec2 size, Footprint f) {
 #if SAMPLING_TEXEL
   return (floor(f.uv * size - 0.5 + texel_draw) + 0.5) / size;

@@ -1,7 +1,7 @@
 // Reads all layers of an array texture under a footprint. One loop over the probes reads all layers, because position,
 // weight and level are shared. Includers define `const int fetched_layers`.
 
-// As `fetchUpTo`, for all layers.
+// Reads every layer as `fetchUpTo` reads one.
 void fetchLayers(sampler2DArray map, Footprint f, float coarsest, out vec4 layers[fetched_layers]) {
 #if SAMPLING_FRAME && !FILTER_HARDWARE
   Probes p = probesOf(vec2(textureSize(map, 0).xy), f);

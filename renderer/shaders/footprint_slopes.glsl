@@ -4,7 +4,7 @@
 // `addedVariance`.
 #include "common_slopes.glsl"
 
-// As `fetch`, for two textures of the same size, in one loop over the probes.
+// Reads two textures of the same size like `fetch`, in one loop over the probes.
 void fetchPair(sampler2D first, sampler2D second, Footprint f, out vec4 of_first, out vec4 of_second) {
 #if SAMPLING_FRAME && !FILTER_HARDWARE
   Probes p = probesOf(vec2(textureSize(first, 0)), f);

@@ -34,15 +34,15 @@ vec3 texelWithin(vec2 size, vec3 texel, vec2 place) {
   return vec3((floor(at * grid) + 0.5) / grid, finer);
 }
 #elif FILTER_STOCHASTIC_GAUSSIAN
-// Where a draw falls in the pixel: Heckbert's exp(-2 r^2), cut off at r = 1, by the inverse of its distribution. A part
-// of `width` has width^2 of the variance, so the places have the rest.
+// The place of a draw in the pixel: Heckbert's exp(-2 r^2), cut off at r = 1, by the inverse of its distribution. A
+// part of `width` has width^2 of the variance, so the places have the rest.
 vec2 drawnPlace(vec2 draw, float width) {
   float r = sqrt(-0.5 * log(1.0 - draw.x * (1.0 - exp(-2.0))) * (1.0 - width * width));
   float angle = 6.28318530718 * draw.y;
   return r * vec2(cos(angle), sin(angle));
 }
 #else
-// Where a draw falls in the pixel: the centre of one of the parts of `width` that tile it.
+// The place of a draw in the pixel: the centre of one of the parts of `width` that tile it.
 vec2 drawnPlace(vec2 draw, float width) { return width > 0.0 ? (floor(draw / width) + 0.5) * width - 0.5 : draw - 0.5; }
 #endif
 

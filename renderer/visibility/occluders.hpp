@@ -33,7 +33,7 @@ class Occluders {
   /// Whether anything within `distance` blocks light that arrives at `origin` against the unit vector `direction`.
   [[nodiscard]] bool blocked(const glm::vec3& origin, const glm::vec3& direction, float distance = unlimited) const;
 
-  /// The same for many unlimited rays from one point; a value per direction.
+  /// Whether each of many unlimited rays from one point is blocked; a value per direction.
   [[nodiscard]] std::vector<bool> blocked(const glm::vec3& origin, std::span<const glm::vec3> directions) const;
 
   /// The first point at `least` or further that blocks light along the ray.

@@ -71,7 +71,7 @@ TEST(Occluders, LetHolesThrough) {
   EXPECT_FALSE(open(0.5F, 0.5F));
 }
 
-// As in glTF: what has the cutoff's own alpha is there.
+// A surface with the cutoff's own alpha is there, as in glTF.
 TEST(Occluders, AlphaOfTheCutoffBlocks) {
   Scene scene = white_floor();
   scene.materials[0].alpha_cutoff = 0.5F;

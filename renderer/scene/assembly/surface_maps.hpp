@@ -30,8 +30,8 @@ struct NormalMap {
 [[nodiscard]] NormalMap decode_normal_map(const Image& stored, double scale,
                                           NormalChannels channels = NormalChannels::xyz);
 
-/// The same for unit normals, x, y, z of -1 to 1. Throws Error (usage): one channel; most texels are not unit vectors,
-/// with a hint if they seem to be encoded as 0 to 1.
+/// Decodes unit normals, x, y, z of -1 to 1, otherwise as decode_normal_map. Throws Error (usage): one channel; most
+/// texels are not unit vectors, with a hint if they seem to be encoded as 0 to 1.
 [[nodiscard]] NormalMap decode_unit_normals(const Image& stored, double scale = 1.0,
                                             NormalChannels channels = NormalChannels::xyz);
 
@@ -49,7 +49,8 @@ void require_encoded_normals(const Image& stored, NormalChannels channels);
 [[nodiscard]] MapTexels stored_normals(const FileImage& file, const std::function<NormalMap(const Image&)>& decode,
                                        const std::string& name, std::vector<std::string>& faults);
 
-/// What is left out of a map's file, and whether its floats are the same everywhere: one line each, after `title`.
+/// Notes on a map's file, one line each after `title`: what is left out of it, and whether its floats are the same
+/// everywhere.
 /// channels: those of the file that count.
 /// title: such as "map `gloss.exr`".
 [[nodiscard]] std::vector<std::string> describe_file(const FileImage& file, std::span<const std::size_t> channels,

@@ -92,9 +92,9 @@ Image decode_glossiness(const Image& stored, float glossiness_factor) {
                 [=](const auto& in, const auto& out) { out[0] = 1.0F - glossiness_factor * in[3]; });
 }
 
-// Of KHR_materials_anisotropy: red and green are a direction, blue a share of the strength s. Directions are axes, so
-// that t and -t are equal: s^2 (cos 2 phi, sin 2 phi) per texel, as Material::anisotropy_map. factor: the strength of
-// the whole material, and the rotation of all directions.
+// Decodes the texture of KHR_materials_anisotropy: red and green are a direction, blue a share of the strength s.
+// Directions are axes, so that t and -t are equal: s^2 (cos 2 phi, sin 2 phi) per texel, as Material::anisotropy_map.
+// factor: the strength of the whole material, and the rotation of all directions.
 Image decode_anisotropy(const Image& stored, const Anisotropy& factor) {
   const double c = std::cos(2.0 * factor.rotation), s = std::sin(2.0 * factor.rotation);
   return mapped(to_rgb(stored), 2, [=](const auto& in, const auto& out) {

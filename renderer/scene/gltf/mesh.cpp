@@ -220,7 +220,7 @@ class Movement {
   bool mirrored_;
 };
 
-/// Where used vertices of a primitive are in the world.
+/// The bounds of the used vertices of a primitive in the world.
 WideBounds triangle_bounds(Builder& builder, const MeshPose& pose) {
   constexpr double farthest = 1e15;  // metres: squares of it still fit a float
   WideBounds bounds;
@@ -281,7 +281,7 @@ void turn_mirrored_triangles(Builder& builder, const Movement& movement,
   }
 }
 
-// Those of the normal map; where only the coat has one, of the coat's.
+// The texture coordinates that tangents follow: the normal map's, or the coat's where only the coat has a normal map.
 TextureCoordinates tangent_coordinates(const Material& material) {
   if (material.normal_map) return material.normal_map->coordinates;
   return material.coat && material.coat->normal_map ? material.coat->normal_map->coordinates : TextureCoordinates{};

@@ -31,7 +31,7 @@ void require(bool condition, const std::string& place, const std::string& messag
   if (!condition) refuse_gltf(place, message);
 }
 
-/// Where a light or camera looks: its own -z.
+/// The direction in which a light or camera looks: its own -z.
 glm::dvec3 view_direction(const glm::dmat4& world, const std::string& place) {
   const glm::dvec3 axis{world[2]};
   const double length = glm::length(axis);

@@ -159,7 +159,7 @@ TEST(SameFiles, DifferWhereTheMeaningDoes) {  // must fail
   for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GT(difference(loaded({}, all[i]), loaded({}, all[0])), 0.5) << i;
 }
 
-// Of two joints one mirrors: each triangle has the winding of what moves most of its corners.
+// One of two joints mirrors: each triangle has the winding of what moves most of its corners.
 TEST(SameFiles, WindingGoesByTheJointsOfATriangle) {
   for (const int mirrored_corners : {0, 1, 2, 3}) {
     GltfBuilder file;

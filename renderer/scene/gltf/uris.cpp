@@ -9,7 +9,7 @@
 namespace footprint {
 namespace {
 
-// What is left of a URI of the scheme `file`; none: of another scheme.
+// A URI without the scheme `file` and the local host; a URI of another scheme as it is.
 std::string local_part(const std::string& uri) {
   if (lower_case(uri.substr(0, 5)) != "file:") return uri;
   std::string path = uri.substr(5);

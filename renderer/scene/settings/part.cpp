@@ -62,7 +62,7 @@ std::optional<NormalFile> read_normals(const TomlTable& table, const std::filesy
   return file ? std::optional(NormalFile{.path = *file}) : std::nullopt;
 }
 
-// Those of a plane, with the keys that belong to stored normals alone.
+// The normals of a plane: the keys of read_normals, and those that belong to stored normals alone.
 std::optional<NormalFile> read_plane_normals(const TomlTable& table, const std::filesystem::path& folder) {
   auto normals = read_normals(table, folder);
   const auto channels = read_word(table, "normal_channels", normal_channels);

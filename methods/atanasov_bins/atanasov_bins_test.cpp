@@ -48,7 +48,8 @@ TEST_P(OverBorders, BinsDensityIsAPlainSum) {
                          "vec4(ndf(e, c.xyz))", inputs);
     double energy = 0.0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-      // Of the largest density that there may be. The footprint has been through texture coordinates in 32 bits.
+      // The tolerance is a share of the largest density that there may be. The footprint has been through texture
+      // coordinates in 32 bits.
       ASSERT_NEAR(found[i].x * bin_solid_angle(m), exact[i], 1e-5 * (1.0 + 2.0 * size.x / 64.0))
           << size.x << ", footprint " << i / (m * m) << ", bin " << i % (m * m);
       energy += found[i].x * bin_solid_angle(m);

@@ -76,7 +76,7 @@ double relative_error(std::span<const glm::vec4> found, std::span<const double> 
 
 constexpr int m = 31;
 
-// Of each footprint, over all bins.
+// The error of each footprint, over all bins.
 std::vector<double> errors_of_bins(Kind kind, const std::string& border) {
   const Image normals = map_of(kind, 1024);
   std::vector<glm::dvec3> middles;

@@ -56,7 +56,7 @@ TEST(AtanasovLobes, RoughnessIsThatOfEveryTexel) {
   for (const int texels : {48, 768}) {
     Scene scene = leaning_roughness(texels, texels);
     EXPECT_LT(from_exact(scene), texels == 48 ? 1e-3 : 0.02) << texels;
-    // The same with two maps that are not looked up alike: the footprint's mean width.
+    // Two maps that are not looked up alike have the footprint's mean width.
     scene.materials[0].metallic_roughness_map->coordinates.wrap = {Wrap::clamp_to_edge, Wrap::repeat};
     EXPECT_GT(from_exact(scene), 0.4) << texels;
   }

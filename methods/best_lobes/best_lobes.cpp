@@ -62,7 +62,7 @@ double sum_of_weights(const auto& lobes) {
   return sum;
 }
 
-// Those of 1 to `count` lobes.
+// The other methods with 1 to `count` lobes.
 std::vector<OtherMethods> other_methods(const Material& material, std::size_t count, bool with_roughness,
                                         const Progress& progress) {
   std::vector<OtherMethods> others;

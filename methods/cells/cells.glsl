@@ -55,7 +55,7 @@ vec2 meanOf(int i, vec2 own) { return cells_centres[i] + own; }
 vec3 spreadOf(int i, vec2 own_mean, vec3 second) { return covarianceOf(own_mean, second); }
 #endif
 
-// What covers less than `least_share` is not there; it is worked out like the others, without a branch.
+// A part that covers less than `least_share` is not there; it is worked out like the others, without a branch.
 void setPart(inout Effective e, int i, float covered, Moments m, BaseLobe base) {
   float least = least_share * covered;
   float per_weight = 1.0 / max(m.first.x, least);
@@ -105,7 +105,7 @@ void setTints(Footprints f, Moments moments[parts]) {
 }
 #endif
 
-// Of a part that is the surface's own normal, where no texel has a valid one.
+// The moments of a part that is the surface's own normal, where no texel has a valid one.
 Moments flatMoments() {
   vec2 own = -cells_centres[0];
 #if COVARIANCE_AXES

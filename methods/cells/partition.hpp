@@ -90,8 +90,9 @@ struct PartitionSettings {
 /// Equal values are all in the lower group. Values are finite.
 [[nodiscard]] std::vector<bool> upper_group(std::span<const double> values);
 
-/// As partition(), with half of the parts, rounded up, for the texels of the narrower lobes and the rest for the
-/// others: one lobe cannot stand for a sharp and a blunt one. The groups are those of the logarithms of the variances.
+/// Partitions like partition(), with half of the parts, rounded up, for the texels of the narrower lobes and the rest
+/// for the others: one lobe cannot stand for a sharp and a blunt one. The groups are those of the logarithms of the
+/// variances.
 /// variances: the slope variance of each texel's lobe, above 0. Where all are in one group, or settings.parts is 1, the
 /// result is that of partition(). settings.variance is that of each group's mean. Errors: those of partition().
 [[nodiscard]] std::vector<float> partition_with_roughness(std::span<const PlanePoint> points,
@@ -146,7 +147,7 @@ struct PartedPoints {
 /// be the largest allocation of the bake.
 [[nodiscard]] std::vector<std::vector<Image>> layer_chains(int layers, const std::function<Image(int layer)>& finest);
 
-/// Those of moment_layer.
+/// The mip chains of the layers of moment_layer.
 [[nodiscard]] std::vector<std::vector<Image>> moment_chains(const PartedPoints& map,
                                                             const std::array<PartFrame, most_parts>& frames,
                                                             Covariance covariance);

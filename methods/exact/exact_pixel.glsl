@@ -32,7 +32,8 @@ float gaussPiece(vec2 from, vec2 along, float a, float b) {
   return 0.5 * (b - a) * (tentProduct(from + along * (middle - off)) + tentProduct(from + along * (middle + off)));
 }
 
-// The same over the part of [a, b] on one side of x = 0, split at y = -1, 0 and 1. K is constant beyond.
+// The integral of tentProduct over the part of [a, b] on one side of x = 0, split at y = -1, 0 and 1. K is constant
+// beyond.
 float cutInHeight(vec2 from, vec2 along, vec3 heights, float a, float b) {
   float low = clamp(heights.x, a, b);
   float middle = clamp(heights.y, a, b);

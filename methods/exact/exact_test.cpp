@@ -107,7 +107,7 @@ TEST_P(ExactWeights, AreThoseOfASumOverPoints) {
   EXPECT_GT(touched, 25);
 }
 
-// Of all texels about it they sum to the parallelogram's area.
+// The weights of all texels about a parallelogram sum to its area.
 TEST_P(ExactWeights, SumToTheArea) {
   const std::vector<Parallelogram> all = some_parallelograms();
   const auto sums = probe_exact(GetParam(),

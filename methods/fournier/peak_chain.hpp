@@ -33,11 +33,11 @@ struct PeakChain {
   FitStatistics statistics;
 };
 
-/// What a texel stores of one peak: the four channels of `PeakChain`.
+/// The values that a texel stores for one peak: the four channels of `PeakChain`.
 using Layer = std::array<float, 4>;
 [[nodiscard]] Layer layer_of(const Peak& peak);
 
-/// What a fit makes of the normals of one texel.
+/// The result of a fit to the normals of one texel.
 struct TexelFit {
   std::vector<Layer> layers;  ///< at most ChainSettings::layers
   bool fitted = false;

@@ -47,7 +47,7 @@ std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t 
   return seeds;
 }
 
-// Of each set, the heaviest first.
+// The peak of each set, the heaviest first.
 std::vector<Peak> sorted_peaks(const std::vector<Moments>& sets) {
   std::vector<Peak> peaks;
   for (const Moments& set : sets) peaks.push_back(peak_of(set));

@@ -61,7 +61,7 @@ float meanProjectedArea(SlopeLobe lobe, vec3 w) { return max(dot(lobe.axis, w), 
 float offCentreLambda(float projected_area, float variance) {
   float inverse_a2 = 2.0 * variance / (projected_area * projected_area);
 #if DISTRIBUTION_GGX && ROUGHNESS_STRETCHED
-  // The same a of an elliptical GGX (Heitz 2014, equation 72), in a form without cancellation.
+  // Lambda of an elliptical GGX by the same a (Heitz 2014, equation 72), in a form without cancellation.
   return 0.5 * inverse_a2 / (1.0 + sqrt(1.0 + inverse_a2));
 #else
   return beckmannLambda(1.0 / max(sqrt(inverse_a2), 1e-6));

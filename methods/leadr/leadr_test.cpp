@@ -80,7 +80,7 @@ TEST(Leadr, SmithTermMeetsItsIntegral) {
       inputs.push_back({glm::vec4(glm::vec3(w), 0), {}, {}});
       expected.push_back(masking_by_integration(twin.mean, twin.spread + glm::dmat2(twin.variance()), w));
     }
-    // Of all slopes, as the twin has them.
+    // The method keeps all slopes, as the twin has them.
     const auto out = probe_method(leadr(material, {{"roughness", "shading"}, {"steepest", "50"}}),
                                   "return vec4(lobeLambda(e.lobe, a.xyz));", inputs);
     for (std::size_t i = 0; i < out.size(); ++i)

@@ -240,7 +240,7 @@ TEST(Lean, RoughnessInTheMomentsIsThatAtShadingTime) {
   EXPECT_THROW((void)probe_ndf(probed, {{0, 0, 1}}), Error);
 }
 
-// Of two roughnesses in equal shares: the mean of their variances, of them, or of their alphas.
+// Two roughnesses in equal shares average to the mean of their variances, of them, or of their alphas.
 TEST(Lean, AveragesTheRoughnessAsAsked) {
   Image roughness(8, 8, 2, 0.2F);
   for (std::size_t i = 0; i < roughness.texels.size(); i += 4) roughness.texels[i] = 0.6F;

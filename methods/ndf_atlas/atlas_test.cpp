@@ -114,7 +114,7 @@ TEST(Atlas, LayoutsHoldAllBlocksNearlySquare) {
     EXPECT_EQ(layout.byte_count(Storage::fp16),
               8U * 31U * 27U * static_cast<std::size_t>(layout.columns * layout.rows));
   }
-  // As large as any may be, in its worst shapes.
+  // The largest maps that there may be, in their worst shapes.
   for (int edge = 8; edge <= 256; ++edge) {
     const Lattice lattice{.nodes = {edge, edge}};
     int width = 1;

@@ -41,7 +41,7 @@ double core_width(const Lobe& lobe) {
   return lobe.distribution == NormalDistribution::ggx ? 0.5 * lobe.parameter : lobe_width(lobe);
 }
 
-// Of anisotropic lobes the round ones of the width across and along.
+// The narrowest and the widest lobe; of anisotropic lobes, the round ones of the width across and along.
 struct Extremes {
   Lobe narrowest, widest;
 };

@@ -38,7 +38,7 @@ double ggx_mean_length(double alpha) {
   return sum / mass;
 }
 
-// As the sources print them.
+// A formula as its source prints it: alpha^2 and the mean normal's length in, alpha'^2 out.
 using Printed = std::function<double(double alpha2, double r)>;
 const std::map<Preset, Printed>& printed_formulas() {
   static const std::map<Preset, Printed> formulas{

@@ -26,7 +26,7 @@ std::vector<NormalSteps> many_steps() {
 
 double sat(double x) { return std::clamp(x, 0.0, 1.0); }
 
-// As the sources print them: perceptual roughness in, alpha out.
+// A formula as its source prints it: perceptual roughness in, alpha out.
 using Printed = std::function<double(double rho, const glm::dvec3& du, const glm::dvec3& dv)>;
 
 double tokuyoshi(double alpha, double variance, double cap) {

@@ -11,7 +11,7 @@
 // the lobe takes their covariance. Matrices are alpha^2, twice the covariance of slopes.
 #include "facet_frame.glsl"
 
-// What of a half vector is spread: its slope in 2019, its projection on the disc in 2021.
+// The part of a half vector that is spread: its slope in 2019, its projection on the disc in 2021.
 vec2 spreadOf(vec3 h) {
 #if PRESET_TOKUYOSHI_KAPLANYAN_2019
   return h.xy / max(abs(h.z), 1e-4);
@@ -37,7 +37,7 @@ mat2 widenedMatrix(float alpha2, vec3 here, vec3 right, vec3 above) {
 }
 
 #if SCREEN_DERIVATIVES
-// Where there is no light: for a half vector along the normal, which stays while the frames turn about it.
+// The matrix where there is no light: for a half vector along the normal, which stays while the frames turn about it.
 mat2 matrixAboutNormal(float alpha2, vec3 n, vec3 n_right, vec3 n_above, Footprints f) {
   vec3 right = n + transpose(f.frame_dx) * n;
   vec3 above = n + transpose(f.frame_dy) * n;
@@ -195,7 +195,7 @@ Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo, HalfSteps steps) {
   return r;
 }
 
-// Of light that has no place: an environment's directions.
+// Shades by light that has no place: an environment's directions.
 Reflected shade(Effective e, Surface s, vec3 wi, vec3 wo) { return facetShade(e.facets, s, wi, wo); }
 #else
 struct Effective {

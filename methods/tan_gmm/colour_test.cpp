@@ -29,7 +29,7 @@ TEST(TanGmmColour, WeighsComponentsByTheirColour) {
   }
 }
 
-// Of colours that differ in hue, the luminance is that of the sum.
+// Colours that differ in hue have the luminance of their sum.
 TEST(TanGmmColour, HasTheLuminanceOfTheSum) {
   const std::vector<glm::dvec3> directions = hemisphere_grid(40, 80);
   const ColouredLobes walls = coloured_walls(0.4F, {0.8F, 0.1F, 0.05F}, {0.05F, 0.1F, 0.6F});

@@ -209,8 +209,7 @@ TEST(TanEm, PublishedMStepHasItsOwnPrior) {
   EXPECT_EQ(wide, other);
 }
 
-// Of M samples, N of them the component's, the printed variance is the exact one over M, or times N / M; its floor
-// stays.
+// The printed variance of a component with N of M samples is the exact one over M, or times N / M; its floor stays.
 TEST(TanEm, PublishedVarianceIsOutOfScale) {
   std::mt19937 random(3);
   const Problem p = random_problem(random, 40, 2);
@@ -271,7 +270,7 @@ void expect_sound(std::span<const Gaussian> mixture) {
   EXPECT_NEAR(total, 1.0, 1e-6);
 }
 
-// As many Gaussians as samples, or more: they would shrink without end.
+// With as many Gaussians as samples, or more, they would shrink without end.
 TEST(TanEm, FewOrEqualSamplesStayFinite) {
   for (const std::size_t count : {1U, 2U, 4U, 7U}) {
     for (const bool equal : {false, true}) {

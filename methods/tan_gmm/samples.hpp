@@ -78,7 +78,7 @@ class PooledTiles {
 
   explicit PooledTiles(const NormalField& normals);
 
-  /// The same as NormalField::gather, except for the pooling.
+  /// Gathers like NormalField::gather, except for the pooling.
   void gather(int level_width, int level_height, int column, int row, Samples& out) const;
 
  private:

@@ -212,7 +212,7 @@ Effective effective(Footprints f) {
   vec4 layers[components];
   fetchLayers(tan_gmm_mixture, f.normal, any_level, layers);
 #if SPECULAR_JOINT && SPECULAR_VARIATION
-  // Of a dark footprint too, components are left out by their share of it.
+  // Components are left out by their share of the footprint, also of a dark one.
   float total = 0.0;
   for (int i = 0; i < components; ++i) total += layers[i].x;
   for (int i = 0; i < components; ++i) layers[i] /= max(total, 1e-6);

@@ -264,7 +264,7 @@ TEST(TanGmm, EnergyIsThatOfTheExactNdf) {
   }
 }
 
-// As many Gaussians as texels: nothing is lost but the shape of a lobe (golden values of the exact NDF).
+// With as many Gaussians as texels nothing is lost but the shape of a lobe (golden values of the exact NDF).
 TEST(TanGmm, FourTexelsAreFourLobes) {
   Image map(2, 2, 4, 1.0F);
   const std::array<glm::vec3, 4> normals{{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.6F, 0.8F}, {-0.28F, 0, 0.96F}}};

@@ -143,7 +143,7 @@ TEST(CameraSpace, MeansLeaveOutWhatIsCulled) {
   expect_facing("xu_vmf_parts", map.baked().textures[1].levels.size());
 }
 
-// Of a plane to the side, turned by more or less than a right angle: which side a viewer sees depends on where it is,
+// A plane to the side is turned by more or less than a right angle: which side a viewer sees depends on where it is,
 // or, of parallel rays, on where these come from.
 TEST(CameraSpace, CullsByWhereTheViewerIs) {
   for (const bool orthographic : {false, true}) {

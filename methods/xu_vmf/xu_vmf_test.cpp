@@ -96,7 +96,8 @@ TEST(XuConversion, TheTableGoesOnBeyondItsEnds) {
   }
 }
 
-// Of the map that is built and of what it reflects, from lobes that know no direction to such as no float can follow.
+// The map that is built and what it reflects are finite, from lobes that know no direction to such as no float can
+// follow.
 TEST(XuDensity, IsFiniteForEveryKappa) {
   std::vector<glm::dvec3> directions = hemisphere_grid(8, 16);
   const Image normals = random_normals(5, 3, 0.9F, 17);

@@ -86,7 +86,7 @@ Eigen::MatrixXd some_rows(const Lobe& lobe, const std::vector<glm::dvec3>& norma
   return rows;
 }
 
-// What a lobe of normals reflects of light from wi, with the half vector h.
+// The light from wi that a lobe of normals reflects, with the half vector h.
 glm::dvec3 convolved(const FacetReflection& reflection, const SphericalGaussian& fitted, const glm::dvec3& h,
                      const glm::dvec3& wi, bool approximate) {
   const SphericalGaussian lobe{fitted.axis, own_sharpness(fitted.sharpness)};

@@ -65,7 +65,7 @@ class FacetSum {
   FacetSum(const Material& material, const TableSettings& settings, BinnedFacets facets,
            std::vector<glm::dvec3> directions, const Progress& progress);
 
-  /// The same with a compressed base lobe.
+  /// Replaces the base lobe by a compressed one.
   void compress(const LowRank& sizes) { compressed_.emplace(lobe_, sizes); }
 
   /// The sum for two directions by their indices in the list.
@@ -117,8 +117,8 @@ using FacetReflection = std::variant<Lobe, std::vector<BrdfLobe>, TabulatedLobes
 /// with amplitudes of 1.
 [[nodiscard]] double convolution_error(double sharpness1, double sharpness2);
 
-/// The same for the SG that Jakob 2012 convolves to. The length of its mean vector is the product of the two (vMF), and
-/// its value is that of Eq. 11 where the axes meet.
+/// The largest absolute difference between Eq. 11 and the SG that Jakob 2012 convolves to, over the same angles. The
+/// length of its mean vector is the product of the two (vMF), and its value is that of Eq. 11 where the axes meet.
 [[nodiscard]] double jakob_convolution_error(double sharpness1, double sharpness2);
 
 /// Root mean square differences between gamma~ = gamma (cosines) / a_v and its lobes, over the paper's 6x128x128

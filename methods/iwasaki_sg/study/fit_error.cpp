@@ -80,7 +80,7 @@ Spread spread_of(const SphericalGaussian& lobe, std::span<const glm::dvec3> midd
 struct Sums {
   double squares = 0.0;      // of gamma~
   double differences = 0.0;  // of gamma~ minus the lobes, squared
-  double occupied = 0.0;     // the same over cells with facets
+  double occupied = 0.0;     // of these differences, over cells with facets
   double cells = 0.0;        // with facets
 
   Sums& operator+=(const Sums& other) {

@@ -18,7 +18,7 @@ class WidenedLobe {
   /// The relative L2 difference, over solid angle, between the true NDF and the lobe of alpha^2 + c / kappa.
   [[nodiscard]] double error(double c) const;
 
-  /// The same for the lobe of `alpha2`.
+  /// The relative L2 difference for the lobe of alpha^2 = `alpha2`.
   [[nodiscard]] double error_of(double alpha2) const;
 
   /// 1 minus the length of the texels' mean normal.

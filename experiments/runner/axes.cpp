@@ -24,7 +24,7 @@ const Setting& setting_of(std::string_view key) {
   return *std::ranges::find_if(run_settings(), [&](const Setting& setting) { return setting.key.name == key; });
 }
 
-// As the setting writes it, so that one value has one name.
+// The value as its setting writes it, so that one value has one name.
 std::string written_by_setting(const std::string& key, const std::string& value) {
   RunSettings run;
   const Setting& setting = setting_of(key);

@@ -34,11 +34,11 @@ enum class Selector {
   spp         ///< above 0; of the reference, or of plain supersampling
 };
 
-/// As they are written, in the order of Selector.
+/// The words for the selectors, in the order of Selector.
 inline constexpr std::array<std::string_view, 10> selector_names{"distance", "frame",     "footprint", "scene", "seed",
                                                                  "size",     "footprint", "name",      "gpu",   "spp"};
 
-/// Those of the axes of a matrix.
+/// The selectors of the axes of a matrix.
 inline constexpr std::array<Selector, 4> axis_selectors{Selector::filter, Selector::scene, Selector::seed,
                                                         Selector::size};
 
@@ -103,12 +103,12 @@ struct Expression {
   [[nodiscard]] std::vector<Measure> measures() const;
   /// Calls `change` with every call's measure, from left to right.
   void for_each_measure(const std::function<void(Measure&)>& change);
-  /// The same expression with `method` wherever the method is `*`.
+  /// Returns the expression with `method` wherever the method is `*`.
   [[nodiscard]] Expression with_method(const std::string& method) const;
-  /// As it would be written, in one style.
+  /// The expression as it would be written, in one style.
   [[nodiscard]] std::string text() const;
-  /// Over one run, or the members of a matrix. Its methods must be the runs' (select_method). A division by 0 or a
-  /// figure that was not measured is a problem.
+  /// Evaluates over one run, or the members of a matrix. Its methods must be the runs' (select_method). A division by 0
+  /// or a figure that was not measured is a problem.
   [[nodiscard]] Evaluation evaluate(std::span<const Results> runs) const;
 };
 
@@ -160,7 +160,7 @@ struct FigureFunction {
 /// it starts.
 void check_measure(const Measure& measure, const Experiment& experiment);
 
-/// The same of its distance and frame alone, in an experiment over these distances and of so many frames.
+/// Refuses (usage) a distance or frame that an experiment over these distances and of so many frames has no figure for.
 void check_distance(const Measure& measure, const std::vector<double>& distances, std::size_t frames);
 
 /// The mean over the records of the method that match, in one run or in the members of a matrix; those without the

@@ -225,7 +225,7 @@ std::vector<FigureFunction> every_function() {
   return table;
 }
 
-// Those without a value do not count.
+// The mean over the samples; those without a value do not count.
 Measured mean_of(const Measure& measure, std::span<const Sample> samples) {
   Measured mean;
   mean.text = measure_text(measure);

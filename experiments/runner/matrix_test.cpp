@@ -33,7 +33,7 @@ class MatrixFile : public ::testing::Test {
     return folder_ / name;
   }
 
-  // As a command reads it: its scenes too.
+  // Reads the experiment as a command does: its scenes too.
   Experiment read(const std::string& text) const {
     Experiment experiment = read_experiment(write("mine.toml", text));
     experiment.run.scene_library = {.folder = testing::source_folder() / "scenes", .surfaces = all_surfaces()};

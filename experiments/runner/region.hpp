@@ -21,7 +21,7 @@ void read_region(const TomlTable& root, Experiment& experiment);
 /// (usage): the file has no [region]; of its scene.
 [[nodiscard]] std::vector<Experiment> settings_of_region(const Experiment& stated);
 
-/// What became of each claim. `runs` has the results of the stated setting and of all others, in the order of
+/// The outcome of each claim. `runs` has the results of the stated setting and of all others, in the order of
 /// settings_of_region.
 [[nodiscard]] RegionReport region_report(const Experiment& stated, std::span<const Results> runs);
 

@@ -25,7 +25,7 @@ namespace footprint {
 /// The origin of an exposure.
 enum class ExposureSource { scene, automatic, command_line, experiment };
 
-/// As reports write it.
+/// The words for it in reports.
 inline constexpr std::array<Word<ExposureSource>, 4> exposure_sources{{
     {ExposureSource::scene, "scene"},
     {ExposureSource::automatic, "automatic"},
@@ -55,7 +55,7 @@ enum class AnimationPath {
   animation  ///< meshes, camera and lights of the model file, by its keys
 };
 
-/// As users write it.
+/// The words for it in options and files.
 inline constexpr auto animation_paths = std::to_array<Word<AnimationPath>>({{AnimationPath::zoom, "zoom"},
                                                                             {AnimationPath::orbit, "orbit"},
                                                                             {AnimationPath::light, "light"},
@@ -89,7 +89,7 @@ enum class BoundUse {
   off
 };
 
-/// As users write it.
+/// The words for it in options and files.
 inline constexpr std::array<Word<BoundUse>, 3> bound_uses{{
     {BoundUse::automatic, "auto"},
     {BoundUse::on, "on"},
@@ -164,7 +164,7 @@ struct RunSettings {
 /// What a run measures over its views.
 enum class RunKind : std::uint8_t {
   comparison,  ///< errors and times at distances
-  zoom,        ///< the same at the distances of a path, and flicker from each to the next
+  zoom,        ///< errors and times at the distances of a path, and flicker from each to the next
   animation    ///< images, errors and flicker of the frames of a path, without times
 };
 

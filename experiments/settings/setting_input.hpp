@@ -26,7 +26,7 @@ class SettingInput {
   explicit SettingInput(TomlScalar value) : value_(std::move(value)) {}
   explicit SettingInput(std::vector<TomlScalar> list) : value_(std::move(list)) {}
 
-  /// As an option would have it, for words and messages.
+  /// The value as an option would have it, for words and messages.
   [[nodiscard]] std::string text() const {
     if (const auto* const list = std::get_if<std::vector<TomlScalar>>(&value_)) {
       std::vector<std::string> texts;

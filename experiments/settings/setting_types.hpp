@@ -168,7 +168,7 @@ SettingType typed(Field field, std::string word, std::string takes, auto parse) 
   return typed(field, std::move(word), std::move(takes), parse, written<ValueOf<Field>>);
 }
 
-// The same of a value that is a list in a file, whose parts `separator` joins in a text.
+// The type for a value that is a list in a file, whose parts `separator` joins in a text.
 inline SettingType listed(SettingType type, std::string file_takes, char separator = ',') {
   type.file_takes = std::move(file_takes);
   type.separator = separator;

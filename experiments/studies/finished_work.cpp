@@ -65,7 +65,8 @@ void make_folder(const fs::path& folder) {
               "choose a folder that you can write to");
 }
 
-// The same file under a second name. Both names are only ever replaced by renaming, so neither changes the other.
+// Gives a file a second name, or copies it. Both names are only ever replaced by renaming, so neither changes the
+// other.
 void link_or_copy(const fs::path& from, const fs::path& to) {
   make_folder(to.parent_path());
   std::error_code failed;

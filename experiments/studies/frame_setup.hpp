@@ -20,7 +20,7 @@ inline constexpr int pictures_of_a_frame = 3;
 /// The footprint filter: `given`, else the scene's, else default_footprint_filter.
 [[nodiscard]] FootprintFilter footprint_filter_of(const std::optional<FootprintFilter>& given, const Scene& scene);
 
-/// What is wanted of a program that draws frames of a scene (forward_program).
+/// The variant of a program that draws frames of a scene (forward_program).
 [[nodiscard]] ShaderVariant frame_program(const Scene& scene, const FootprintFilter& filter);
 
 /// Errors (machine): so many images (RGBA, 32-bit floats) of this size exceed memory.

@@ -24,7 +24,7 @@ struct Reference;
 /// stage's methods (whole frames), then the frame builds alone of those that have one, in the same order.
 using DistanceTimes = std::vector<std::vector<double>>;
 
-/// Those of one process at all distances.
+/// The frame times of one process at all distances.
 using FrameTimes = std::vector<DistanceTimes>;
 
 /// Whether more rounds would say little more of the ratio of `times` to `unit`, taken in the same rounds: the 95%

@@ -84,7 +84,7 @@ double written_bytes(const RecordedDraw& draw) {
 
 bool is_copy(const RecordedDraw& draw) { return draw.fragment.empty(); }
 
-// Those of the forward pass and of the passes before it.
+// The programs of the forward pass and of the passes before it.
 std::vector<CostedProgram> programs_of(const CostedFrame& frame) {
   std::vector<CostedProgram> programs;
   for (const auto& [program, weight] : frame.programs) programs.push_back(program);

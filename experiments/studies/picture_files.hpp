@@ -43,7 +43,7 @@ struct Strip {
 /// "images/STEM.exr".
 std::string write_picture(const RunFolder& folder, const std::string& stem, const Image& radiance, float exposure);
 
-/// The same, and STEM_values.js beside them, from which the page reads its values.
+/// Writes the files of write_picture, and STEM_values.js beside them, from which the page reads its values.
 /// left_out: a mask of the pixels that no figure includes; empty: there are none.
 std::string write_page_picture(const RunFolder& folder, const std::string& stem, const Image& radiance, float exposure,
                                const Image& left_out = {});

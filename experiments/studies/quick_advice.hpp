@@ -63,7 +63,7 @@ struct QuickModel {
   std::vector<int> texels_per_pixel;  ///< powers of two
   int scenes = 0;                     ///< that it was fitted on
   std::vector<QuickCalibration> calibration;
-  std::vector<QuickCalibration> surfaces = {};  ///< the same over generated surfaces
+  std::vector<QuickCalibration> surfaces = {};  ///< the calibration over generated surfaces
   /// Per level, the range of the logarithms of mean alpha and of the lobe errors over the maps that it was fitted on.
   std::vector<std::vector<std::array<double, 2>>> domain = {};
   std::vector<QuickMethod> methods;

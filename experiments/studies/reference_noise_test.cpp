@@ -45,7 +45,7 @@ TEST(AsConverged, IsCoveredAsTheReferenceIs) {
   EXPECT_EQ(as_converged(pixel(0.9F, 0.9F, 0.9F, 1), pixel(0.2F, 0.2F, 0.2F, 1), reference).texels[3], 0.5F);
 }
 
-// Of two grey pixels the first was a highlight that is gone: 0.75 of it is left in the image. The second pixel's error
+// The first of two grey pixels was a highlight that is gone: 0.75 of it is left in the image. The second pixel's error
 // does not count.
 TEST(Ghosting, IsTheErrorWhereTheReferenceGotDarker) {
   const auto greys = [](float first, float second) {

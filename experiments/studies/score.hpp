@@ -86,9 +86,9 @@ struct ScoreMetric {
 [[nodiscard]] PictureScore score_picture(const ScoredPicture& picture, const Image& reference, float exposure,
                                          double pixels_per_degree);
 
-/// Which of two RGBA images is closer to the reference, per pixel, by the normalised colour error (metrics.md) and
-/// beyond three standard errors of the reference: one channel, 1 for `a`, -1 for `b`, 0 if noise does not decide or the
-/// pixel is not an object pixel. standard_error: of the reference, RGB.
+/// Decides per pixel which of two RGBA images is closer to the reference, by the normalised colour error (metrics.md)
+/// and beyond three standard errors of the reference: one channel, 1 for `a`, -1 for `b`, 0 if noise does not decide or
+/// the pixel is not an object pixel. standard_error: of the reference, RGB.
 [[nodiscard]] Image closer_beyond_noise(const Image& a, const Image& b, const Image& reference,
                                         const Image& standard_error, float exposure);
 
@@ -99,7 +99,7 @@ struct ScoreMetric {
 /// Shares of the mask's pixels (one channel, above 0) in which each image is closer; none if the mask is empty.
 [[nodiscard]] std::optional<std::array<double, 2>> closer_shares(const Image& verdicts, const Image& mask);
 
-/// Which of two images is closer, pixel by pixel.
+/// The closer one of two images, pixel by pixel.
 struct PairScore {
   std::array<double, 2> shares{};
   Image verdicts, object;

@@ -137,7 +137,7 @@ TEST(RejectedPixels, AreNoneOfNoiseAlone) {
 
 TEST(RejectedPixels, AreThoseBeyondTheNoiseOfAllTests) {
   const PixelTest test{.reference_error = Image(edge, edge, 3, 0.02F), .picture_error = {}, .significance = 0.01};
-  // Of 120000 tests a probability of 8.4e-8 each: 5.36 standard errors.
+  // Each of 120000 tests has a probability of 8.4e-8: 5.36 standard errors.
   Image picture = even(0.5F);
   picture.at(3, 4)[1] += 5.3F * 0.02F;
   EXPECT_EQ(rejected_pixels(picture, even(0.5F), test), 0U);

@@ -113,7 +113,7 @@ class StagedMethod {
   [[nodiscard]] const GpuMethod& gpu() const { return *prepared_->gpu; }
   [[nodiscard]] const FrameRenderer& frames() const { return *frames_; }
   [[nodiscard]] const MethodSpec& spec() const { return drawn_.spec; }
-  /// As written.
+  /// The method's text, as written.
   [[nodiscard]] const std::string& text() const { return drawn_.spec.text; }
   [[nodiscard]] const FootprintFilter& filter() const { return drawn_.filter; }
   [[nodiscard]] const HistorySettings& history() const { return drawn_.history; }
@@ -132,8 +132,9 @@ class Stage {
   /// Errors of the parts: usage (scene, method, option), machine (no GL, limits, memory).
   Stage(Scene scene, const RunSettings& settings, const Progress& progress, const StageOptions& options = {});
 
-  /// The same over a scene that other stages may have prepared: what they have is taken from there, and what is made is
-  /// left there for those that follow. Their settings differ in methods, footprint filter and size alone.
+  /// The settings' methods over a scene that other stages may have prepared: what they have is taken from there, and
+  /// what is made is left there for those that follow. Their settings differ in methods, footprint filter and size
+  /// alone.
   Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, const Progress& progress,
         const StageOptions& options = {});
 

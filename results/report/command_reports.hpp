@@ -118,7 +118,8 @@ void fields(auto& archive, Is<CostReport> auto& value) {
 /// One Markdown table per GPU: a line per method, with its cost over that of the first method.
 [[nodiscard]] std::string cost_table(const CostReport& report);
 
-/// The same tables for each distance of a run, as a section of table.md and of the page; empty without estimates.
+/// The tables of cost_table for each distance of a run, as a section of table.md and of the page; empty without
+/// estimates.
 [[nodiscard]] std::string gpu_costs_markdown(const Results& results);
 [[nodiscard]] std::string gpu_costs_html(const Results& results);
 
@@ -158,7 +159,7 @@ void fields(auto& archive, Is<NdfRecord> auto& value) {
 /// The exact NDF of the footprint.
 struct ExactNdfRecord {
   double energy = 0.0;           ///< its integral over the grid
-  double expected_energy = 0.0;  ///< the same from the lobes' own integrals
+  double expected_energy = 0.0;  ///< its energy by the lobes' own integrals
   double peak = 0.0;
   struct Images {
     std::string density, picture;

@@ -41,7 +41,7 @@ Table published_table(const ExperimentReport& report) {
   return table;
 }
 
-// As people write it.
+// The words for a verdict as people write it.
 std::string_view in_words(Verdict verdict) {
   return verdict == Verdict::not_reproduced ? "not reproduced" : word_for(verdict_words, verdict);
 }
@@ -126,7 +126,7 @@ std::vector<std::string> claim_lines(const ClaimOutcome& claim, const std::vecto
   return lines;
 }
 
-// The same as an item of a Markdown list, whose further lines are indented.
+// A claim as an item of a Markdown list, whose further lines are indented.
 std::string claim_item(const ClaimOutcome& claim, const std::vector<SecondVerdict>& verdicts) {
   std::string text;
   for (const std::string& line : claim_lines(claim, verdicts))
@@ -159,7 +159,7 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-// As workflow commands take them: a property also ends at a comma, and its name at a colon.
+// Text as workflow commands take it: a property also ends at a comma, and its name at a colon.
 std::string command_escaped(std::string_view text, bool is_property) {
   const std::string out = escaped(text, {{'%', "%25"}, {'\r', "%0D"}, {'\n', "%0A"}});
   return is_property ? escaped(out, {{':', "%3A"}, {',', "%2C"}}) : out;

@@ -18,7 +18,7 @@ namespace footprint {
 /// The sections of table.md that an experiment adds, each with its heading.
 [[nodiscard]] std::string experiment_markdown(const ExperimentReport& report);
 
-/// The same for index.html: a <section> with the composed figures, every text escaped.
+/// The <section> of index.html that an experiment adds, with the composed figures, every text escaped.
 [[nodiscard]] std::string experiment_html(const ExperimentReport& report);
 
 /// A claim, a threshold or a figure of a baseline.

@@ -18,7 +18,7 @@ namespace footprint {
 /// An error measure of any two images. One that may be missing is optional.
 using ImageMetric = std::variant<double ErrorFigures::*, std::optional<double> ErrorFigures::*>;
 
-/// What an experiment must have for a figure, besides a method.
+/// The needs of a figure in an experiment, besides a method.
 enum class FigureNeeds {
   nothing,
   other_reference,  ///< where `spp` selects one: the reference of so many samples

@@ -82,7 +82,7 @@ template <typename Records>
 /// Text, quoted if it contains a comma, a quote or a line break.
 [[nodiscard]] std::string csv_field(std::string_view text);
 
-/// As many digits as reading the same double back takes; empty if it is absent or not finite.
+/// The value with as many digits as reading the same double back takes; empty if it is absent or not finite.
 [[nodiscard]] std::string csv_field(const std::optional<double>& value);
 
 /// A value of a document: null is empty, a list "a;b", an object "name=value;name=value".

@@ -44,7 +44,7 @@ void fields(auto& archive, Is<Table> auto& value) {
 /// The table without its heading, every cell escaped.
 [[nodiscard]] std::string markdown_table(const Table& table);
 
-/// The same below its heading, of a level; empty without rows.
+/// The table below its heading, of a level; empty without rows.
 [[nodiscard]] std::string markdown_section(const Table& table, int level = 2);
 
 /// `page` with every `{{name}}` replaced by its value; values are not searched again. Throws std::logic_error for a

@@ -57,7 +57,7 @@ std::string percent(std::size_t part, std::size_t whole) {
   return share > 0.0 && share < 1.0 ? "under 1%" : fmt::format("{:.0f}%", share);
 }
 
-// Those that are ranked, the best first.
+// The records that are ranked, the best first.
 DistanceRecords ranked(const DistanceRecords& records) {
   DistanceRecords sorted;
   std::ranges::copy_if(records, std::back_inserter(sorted),

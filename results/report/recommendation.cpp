@@ -51,7 +51,7 @@ bool cost_as_much(const Candidate& a, const Candidate& b) {
   return within(a.cost.median, b.cost) || within(b.cost.median, a.cost);
 }
 
-// Those that noise does not part from one of them, by the limit's own measure first.
+// The candidates `among` which noise, or the spread of costs, does not part from the best.
 Indices alike(const Candidates& candidates, const Indices& among, std::size_t best, bool by_cost) {
   Indices found;
   std::ranges::copy_if(among, std::back_inserter(found), [&](std::size_t i) {

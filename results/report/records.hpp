@@ -38,7 +38,7 @@ enum class BuildTiming {
   reused        ///< the frames reuse maps that were built before them
 };
 
-/// As reports write it.
+/// The words for it in reports.
 inline constexpr std::array<Word<BuildTiming>, 2> build_timing_words{{
     {BuildTiming::every_frame, "every frame"},
     {BuildTiming::reused, "reused"},
@@ -236,7 +236,7 @@ struct MethodPair {
   std::array<std::string, 2> methods;  ///< as written
   std::array<double, 2> closer{};  ///< share of interior pixels in which that one is closer to the reference by more
                                    ///< than the reference's noise explains; in the rest noise decides
-  /// The same over the interior pixels of each material; empty if the run does not separate them.
+  /// The shares of `closer` over the interior pixels of each material; empty if the run does not separate them.
   std::vector<std::array<double, 2>> materials{};
   std::string picture;  ///< of that over the object, PNG: blue the first, orange the second, grey neither
 };
@@ -317,7 +317,7 @@ enum class Verdict {
   undecided  ///< a figure is missing, or its figures decide nothing
 };
 
-/// As reports write it.
+/// The words for it in reports.
 inline constexpr auto verdict_words = std::to_array<Word<Verdict>>({{Verdict::reproduced, "reproduced"},
                                                                     {Verdict::not_reproduced, "not_reproduced"},
                                                                     {Verdict::undecided, "undecided"}});
@@ -332,7 +332,7 @@ enum class ClaimSource {
   ours          ///< no paper says it
 };
 
-/// As experiment files and reports write it, the paper's own first.
+/// The words for it in experiment files and reports, the paper's own first.
 inline constexpr auto claim_source_words = std::to_array<Word<ClaimSource>>({{ClaimSource::paper, "paper"},
                                                                              {ClaimSource::gpu_time, "gpu_time"},
                                                                              {ClaimSource::closed_form, "closed_form"},

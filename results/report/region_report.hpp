@@ -31,7 +31,7 @@ void fields(auto& archive, Is<RegionSetting> auto& value) {
   archive("values", value.values);
 }
 
-/// What became of one claim over the grid.
+/// The outcome of one claim over the grid.
 struct RegionClaim {
   std::string name, text, inequality = {};
   ClaimSource source = ClaimSource::ours;
@@ -73,7 +73,7 @@ struct RegionReport {
 /// A section per claim in Markdown: the sentence, and a map of the grid with the last axis to the right.
 [[nodiscard]] std::string region_table(const RegionReport& report);
 
-/// The same as a page.
+/// The sections as a page.
 [[nodiscard]] std::string region_page(const RegionReport& report);
 
 /// Writes region.json, table.md and index.html. Errors (machine): region.json cannot be written.

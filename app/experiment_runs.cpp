@@ -163,7 +163,7 @@ ExperimentGroup matrix_group(const Experiment& whole, const std::string& only, b
   return group;
 }
 
-// Those of a folder, but for the ones that are made of others: their members lie there too.
+// The experiments of a folder, but for the ones that are made of others: their members lie there too.
 std::vector<ExperimentGroup> groups_in(const fs::path& folder, const ExperimentRequest& request) {
   const std::regex only = expression_of(request.only);
   std::vector<ExperimentGroup> groups;

@@ -17,7 +17,7 @@
 
 namespace footprint {
 
-/// Which experiments, and how.
+/// The experiments to run, and how.
 struct ExperimentRequest {
   std::string experiment;  ///< a name, or a path; a folder means all experiments in it
   std::string only;        ///< a regular expression that the names of members must match; empty: all are run

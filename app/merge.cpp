@@ -73,7 +73,7 @@ std::vector<Part> read_parts(const std::vector<std::string>& folders) {
   return parts;
 }
 
-// As the parts were run. Errors (usage): the files or this program are not what they were.
+// The experiments as the parts were run. Errors (usage): the files or this program are not what they were.
 RequestedExperiments requested_by(const Part& first, const RunArguments& arguments) {
   RequestedExperiments requested = requested_experiments({.experiment = first.file.experiment,
                                                           .only = first.file.only,

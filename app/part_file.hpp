@@ -7,7 +7,7 @@
 
 namespace footprint {
 
-/// Which part of how many, both from 1 on.
+/// The number of a part and the number of parts, both from 1 on.
 struct Shard {
   int index = 1, count = 1;
 };

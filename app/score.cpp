@@ -358,7 +358,7 @@ std::vector<ScoreArguments> folder_scores(const ScoreArguments& arguments) {
   throw Error(ErrorKind::usage, references.string(), "has no image", "give a folder of references");
 }
 
-// What the arguments ask to be scored: folders against each other, or one or two images.
+// The scores that the arguments ask for: folders against each other, or one or two images.
 std::vector<ScoreArguments> wanted_scores(const ScoreArguments& arguments) {
   std::error_code none;
   const bool folders = fs::is_directory(arguments.pictures.front(), none);

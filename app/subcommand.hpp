@@ -39,7 +39,7 @@ struct RunArguments {
   /// in memory.
   void apply(RunSettings& run) const;
 
-  /// The same over the defaults of a run.
+  /// Returns the defaults of a run, overwritten by `apply`.
   [[nodiscard]] RunSettings settings() const;
 
   /// The options given that have a key in [`table`] of an experiment's file: "--spp" of [reference].
@@ -152,7 +152,7 @@ void write_and_print_animation(const std::filesystem::path& output,
 /// Prints a line per failure of a check. Errors (check): there is one; `checks` says what failed.
 void require_none_failed(const std::string& place, const char* checks, const std::vector<std::string>& failures);
 
-/// What write_whole made.
+/// The result of write_whole.
 template <typename Made>
 struct Written {
   Made made;

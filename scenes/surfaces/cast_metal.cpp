@@ -49,7 +49,7 @@ class Patina {
 
 glm::vec2 stain_tiling(const SurfaceSettings& settings) {
   const auto repeats = static_cast<float>(settings.parameters.number("stain_repeats"));
-  // As many texels per metre along v as along u, nearly, and a whole number of times.
+  // The map has nearly as many texels per metre along v as along u, and repeats a whole number of times.
   return {repeats, std::round(repeats * static_cast<float>(stain_size.x) / static_cast<float>(stain_size.y))};
 }
 

@@ -43,7 +43,7 @@ class DomeLattice {
     for (Dome& dome : domes_) dome.chance = uniform(random);
   }
 
-  /// As of spheres; a tilt of 90 degrees at their edges makes them hemispheres.
+  /// The normal of a sphere; a tilt of 90 degrees at their edges makes them hemispheres.
   [[nodiscard]] glm::dvec3 normal(const glm::dvec2& uv) const {
     const auto dome = at(uv);
     if (!dome) return {0.0, 0.0, 1.0};

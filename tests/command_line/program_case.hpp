@@ -41,8 +41,8 @@ struct Case {
 
 void PrintTo(const Case& row, std::ostream* out);
 
-/// The same rows for both subcommands that render: NameOfCompare and NameOfRender, with a small frame and an output. A
-/// row's arguments are the scene and what goes with it.
+/// Rows for both subcommands that render: NameOfCompare and NameOfRender, with a small frame and an output. A row's
+/// arguments are the scene and what goes with it.
 [[nodiscard]] std::vector<Case> of_compare_and_render(const std::vector<Case>& rows);
 
 /// For INSTANTIATE_TEST_SUITE_P.

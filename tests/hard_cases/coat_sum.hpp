@@ -24,7 +24,7 @@ struct CoatError {
   double each = 0.0;       ///< the largest relative difference of a pixel from the sum
   double mean = 0.0;       ///< the relative difference of the mean over all pixels
   double step = 0.0;       ///< the largest relative change from a pixel to the next in its row or column
-  double true_step = 0.0;  ///< the same of the sum
+  double true_step = 0.0;  ///< the largest such change of the sum
 };
 
 /// `bare` is the same image without the coat. Only `whole` pixels count.

@@ -33,7 +33,7 @@ template <class NormalAt>
 /// A metal with that map and lobe, without geometry or Fresnel term, so that only the distribution of normals counts.
 [[nodiscard]] Material facets(Image normals, const Lobe& lobe);
 
-/// The same with a map of the lobe's parameter that alternates between two values.
+/// Such a metal with a map of the lobe's parameter that alternates between two values.
 [[nodiscard]] Material facets(Image normals, NormalDistribution distribution, float one, float other);
 
 }  // namespace footprint::hard_cases

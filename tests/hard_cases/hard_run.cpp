@@ -289,7 +289,7 @@ class Run {
     }
   }
 
-  // The same numbers by EGL with all threads and by OSMesa with one, if the machine has it and neither uses a GPU.
+  // Compares the numbers by EGL with all threads and by OSMesa with one, if the machine has it and neither uses a GPU.
   void compare_backends(const NdfCase& hard, const Progress& progress) {
     if (!context_.info().software || context_.info().backend == gl::Backend::osmesa) return;
     std::optional<gl::Context> other;

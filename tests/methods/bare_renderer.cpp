@@ -98,7 +98,7 @@ gl::Texture texture_from_exr(const Json& texture, const fs::path& folder) {
   return out;
 }
 
-// As Vulkan would take it: the format by its number, the bytes as they are.
+// The texture as Vulkan would take it: the format by its number, the bytes as they are.
 gl::Texture texture_from_ktx2(const Json& texture, const fs::path& folder) {
   const std::string bytes = text_of(folder / texture["ktx2"].get<std::string>());
   const test::Ktx2File file = test::read_ktx2({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});

@@ -32,7 +32,7 @@ struct MapLobe {
 /// The square of tests/support/test_scenes.hpp with Blinn-Phong lobes.
 [[nodiscard]] Scene blinn_phong_square(const Image& normals, float exponent);
 
-/// The same with a roughness map.
+/// The square with Blinn-Phong lobes from a roughness map.
 [[nodiscard]] Scene rough_square(const Image& normals, const Image& roughness);
 
 [[nodiscard]] glm::mat3 turn(double degrees, const glm::vec3& axis);

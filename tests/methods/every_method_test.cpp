@@ -60,8 +60,8 @@ TEST_P(EveryMethod, EqualsDirectOnAConstantMapAtAnyDistance) {
   }
 }
 
-// The same under a rectangle of light: by points exactly, by lobes but for the fit of lobes without a tail, which some
-// methods have for GGX.
+// A rectangle of light is reflected as by `direct`: by points exactly, by lobes but for the fit of lobes without a
+// tail, which some methods have for GGX.
 TEST_P(EveryMethod, LightsAreasAsDirectOnAConstantMap) {
   for (const AreaIntegral integral : {AreaIntegral::points, AreaIntegral::lobes}) {
     const auto scene = [&] {

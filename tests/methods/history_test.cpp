@@ -121,7 +121,7 @@ TEST(History, FollowsTheSurface) {
   }
 }
 
-// The same of a perspective that turns about the square, over many frames.
+// The camera turns about the square in perspective, over many frames.
 TEST(History, FollowsTheSurfaceInPerspective) {
   Scene scene = patches();
   scene.camera = square_scene({}, {}).camera;

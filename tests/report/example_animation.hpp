@@ -8,7 +8,7 @@ namespace footprint {
 /// Two methods in three frames of an orbit; every optional figure there in some records and absent in others.
 [[nodiscard]] Results example_animation();
 
-/// The same with names that could break a page.
+/// The example animation with names that could break a page.
 [[nodiscard]] Results hostile_animation();
 
 }  // namespace footprint

@@ -46,7 +46,7 @@ std::filesystem::path png_of(const std::filesystem::path& folder, const std::str
   return (folder / image).replace_extension(".png");
 }
 
-// As write_page_picture of the studies.
+// Writes the files that write_page_picture of the studies writes.
 void write_picture(const std::filesystem::path& folder, const std::string& exr, const Image& radiance,
                    double exposure) {
   const std::filesystem::path file = folder / exr;

@@ -12,7 +12,7 @@ namespace footprint::testing {
 /// repeats. Each probe weights texels of two box-filtered levels. The sum is 1.
 [[nodiscard]] Image filter_kernel(const FootprintFilter& filter, const TexelFootprint& footprint, int size);
 
-/// The same for the box that all filters approximate: the share of the parallelogram over each texel, from 16 x 16
+/// The kernel of the box that all filters approximate: the share of the parallelogram over each texel, from 16 x 16
 /// points per texel.
 [[nodiscard]] Image box_kernel(const TexelFootprint& footprint, int size);
 

@@ -33,7 +33,7 @@ class GltfBuilder {
 
   /// The .gltf text, with the buffer as a data URI.
   [[nodiscard]] std::string text() const;
-  /// The same as a .glb.
+  /// The file as a .glb.
   [[nodiscard]] std::string glb() const;
   /// Writes `text()` to a fresh file under the tests' folder.
   [[nodiscard]] std::filesystem::path write() const;

@@ -29,7 +29,7 @@ class TestRenderer {
                                             EnvironmentUse environment = EnvironmentUse::sampled);
   [[nodiscard]] Image frame(const Method& method, const std::string& text = {}, const FootprintFilter& filter = {},
                             int tile = 0, double distance = 1.0, EnvironmentUse environment = EnvironmentUse::sampled);
-  /// The same at the start of a sequence of frames, each with draws of its own: their mean, in double precision.
+  /// The mean of the first frames of a sequence, each with draws of its own, in double precision.
   [[nodiscard]] Image mean_frame(const Method& method, const std::string& text, const FootprintFilter& filter,
                                  std::uint32_t frames, std::uint64_t seed = 1, int tile = 0);
   /// Texture lookups and lobe evaluations per pixel of that frame.

@@ -21,7 +21,7 @@ constexpr std::size_t checksum_length = 16;
 constexpr std::size_t piece_length = std::size_t{1} << 20U;  // read at once to compute a checksum
 
 // The checksum of all bytes; none if they cannot be read.
-std::optional<std::string> checksum_of(const ByteSource& bytes) {
+std::optional<std::string> compute_checksum(const ByteSource& bytes) {
   std::vector<std::uint8_t> piece;
   std::uint64_t sum = fnv1a_start;
   for (std::uint64_t at = 0; at < bytes.size(); at += piece.size()) {
@@ -143,7 +143,7 @@ std::optional<ByteSource> without_checksum(const ByteSource& bytes) {
   ByteSource body = bytes.first(bytes.size() - checksum_length);
   std::string last(checksum_length, '\0');
   if (!bytes.read(body.size(), {reinterpret_cast<std::uint8_t*>(last.data()), last.size()})) return {};
-  return checksum_of(body) == last ? std::optional(body) : std::nullopt;
+  return compute_checksum(body) == last ? std::optional(body) : std::nullopt;
 }
 
 }  // namespace footprint

@@ -29,7 +29,7 @@ void write_value(const fs::path& file, const Value& value) {
 }
 
 template <class Value>
-Value value_of(const fs::path& file) {
+Value read_value(const fs::path& file) {
   if (const std::optional<ByteSource> bytes = ByteSource::of_file(file)) {
     if (std::optional<Value> value = read_checksummed<Value>(form, *bytes)) return *std::move(value);
   }
@@ -42,7 +42,7 @@ SpirvProgram spirv_of_program(const GlslProgram& program) {
   return spirv;
 }
 
-CompileOutcome outcome_of(const VulkanCompiler& compiler, const SpirvProgram& program) {
+CompileOutcome compile_program(const VulkanCompiler& compiler, const SpirvProgram& program) {
   try {
     return {.stage = compiler.compile(program), .failure = {}};
   } catch (const Error& error) {
@@ -67,7 +67,7 @@ void compile_programs(const fs::path& folder) {
     const fs::path outcome = file_of(folder, i, "outcome");
     if (fs::exists(outcome)) continue;
     write_value(outcome, CompileOutcome{.stage = {}, .failure = crash});
-    write_value(outcome, outcome_of(compiler, value_of<SpirvProgram>(file_of(folder, i, "program"))));
+    write_value(outcome, compile_program(compiler, read_value<SpirvProgram>(file_of(folder, i, "program"))));
   }
 }
 
@@ -80,7 +80,7 @@ std::size_t compiled_count(const fs::path& folder) {
 ChipOutcomes read_outcomes(const fs::path& folder, std::size_t count) {
   ChipOutcomes outcomes{.device = file_text(folder / "device.txt"), .programs = {}};
   for (std::size_t i = 0; i < count; ++i)
-    outcomes.programs.push_back(value_of<CompileOutcome>(file_of(folder, i, "outcome")));
+    outcomes.programs.push_back(read_value<CompileOutcome>(file_of(folder, i, "outcome")));
   return outcomes;
 }
 

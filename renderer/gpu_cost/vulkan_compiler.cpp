@@ -28,7 +28,7 @@ vk::raii::Context loaded() {
   }
 }
 
-vk::raii::Instance instance_of(const vk::raii::Context& context) {
+vk::raii::Instance create_instance(const vk::raii::Context& context) {
   const vk::ApplicationInfo application({}, 0, {}, 0, VK_API_VERSION_1_1);
   return {context, vk::InstanceCreateInfo({}, &application)};
 }
@@ -39,7 +39,7 @@ vk::raii::PhysicalDevice first_device(const vk::raii::Instance& instance) {
   return std::move(devices.front());
 }
 
-vk::raii::Device device_of(const vk::raii::PhysicalDevice& physical) {
+vk::raii::Device create_device(const vk::raii::PhysicalDevice& physical) {
   const float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue({}, 0, 1, &priority);
   const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE);
@@ -72,7 +72,7 @@ vk::Format format_of(const ColorTarget& target) {
 }
 
 // A pass that draws into these targets.
-vk::raii::RenderPass pass_of(const vk::raii::Device& device, const std::vector<ColorTarget>& targets) {
+vk::raii::RenderPass create_render_pass(const vk::raii::Device& device, const std::vector<ColorTarget>& targets) {
   std::vector<vk::AttachmentDescription> attachments;
   std::vector<vk::AttachmentReference> references;
   for (const ColorTarget& target : targets) {
@@ -88,16 +88,16 @@ vk::raii::RenderPass pass_of(const vk::raii::Device& device, const std::vector<C
 
 struct CompilingDevice {
   vk::raii::Context context = loaded();
-  vk::raii::Instance instance = instance_of(context);
+  vk::raii::Instance instance = create_instance(context);
   vk::raii::PhysicalDevice physical = first_device(instance);
   std::string name = static_cast<const char*>(physical.getProperties().deviceName);
-  vk::raii::Device device = device_of(physical);
+  vk::raii::Device device = create_device(physical);
   vk::raii::DescriptorSetLayout set = all_bindings(device);
   vk::raii::PipelineLayout layout{device, vk::PipelineLayoutCreateInfo({}, *set)};
 };
 
 // Float vertex attributes, and all channels of each target written.
-vk::raii::Pipeline pipeline_of(const CompilingDevice& on, const SpirvProgram& program) {
+vk::raii::Pipeline create_pipeline(const CompilingDevice& on, const SpirvProgram& program) {
   const vk::raii::Device& device = on.device;
   const vk::raii::ShaderModule vertex(device, vk::ShaderModuleCreateInfo({}, program.vertex));
   const vk::raii::ShaderModule fragment(device, vk::ShaderModuleCreateInfo({}, program.fragment));
@@ -119,7 +119,7 @@ vk::raii::Pipeline pipeline_of(const CompilingDevice& on, const SpirvProgram& pr
   const std::vector<vk::PipelineColorBlendAttachmentState> written(
       program.targets.size(), vk::PipelineColorBlendAttachmentState().setColorWriteMask(eR | eG | eB | eA));
   const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eClear, written);
-  const vk::raii::RenderPass pass = pass_of(device, program.targets);
+  const vk::raii::RenderPass pass = create_render_pass(device, program.targets);
   using enum vk::PipelineCreateFlagBits;
   return {device, nullptr,
           vk::GraphicsPipelineCreateInfo(eCaptureStatisticsKHR | eCaptureInternalRepresentationsKHR, stages)
@@ -134,8 +134,8 @@ vk::raii::Pipeline pipeline_of(const CompilingDevice& on, const SpirvProgram& pr
 }
 
 // A stage among the pipeline's executables.
-vk::PipelineExecutableInfoKHR executable_of(const CompilingDevice& on, const vk::raii::Pipeline& pipeline,
-                                            vk::ShaderStageFlagBits stage) {
+vk::PipelineExecutableInfoKHR find_executable(const CompilingDevice& on, const vk::raii::Pipeline& pipeline,
+                                              vk::ShaderStageFlagBits stage) {
   const auto all = on.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].stages & stage) return {*pipeline, i};
@@ -143,15 +143,15 @@ vk::PipelineExecutableInfoKHR executable_of(const CompilingDevice& on, const vk:
   throw vulkan_error(on.name, "does not report the vertex and the fragment stage");
 }
 
-std::map<std::string, std::uint64_t> statistics_of(const CompilingDevice& on,
-                                                   const vk::PipelineExecutableInfoKHR& executable) {
+std::map<std::string, std::uint64_t> read_statistics(const CompilingDevice& on,
+                                                     const vk::PipelineExecutableInfoKHR& executable) {
   std::map<std::string, std::uint64_t> statistics;
   for (const auto& one : on.device.getPipelineExecutableStatisticsKHR(executable)) statistics[one.name] = one.value.u64;
   return statistics;
 }
 
 // The wrapper lists the texts with their sizes; the driver fills them in where there is room.
-std::string code_of(const CompilingDevice& on, const vk::PipelineExecutableInfoKHR& executable) {
+std::string read_compiled_code(const CompilingDevice& on, const vk::PipelineExecutableInfoKHR& executable) {
   auto all = on.device.getPipelineExecutableInternalRepresentationsKHR(executable);
   auto count = static_cast<std::uint32_t>(all.size());
   std::vector<std::string> texts(count);
@@ -179,14 +179,14 @@ auto translated(const auto& work) {
 
 CompiledStage compiled_on(const CompilingDevice& on, const SpirvProgram& program) {
   const auto begin = std::chrono::steady_clock::now();
-  const vk::raii::Pipeline pipeline = pipeline_of(on, program);
+  const vk::raii::Pipeline pipeline = create_pipeline(on, program);
   CompiledStage stage;
   stage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const auto fragment = executable_of(on, pipeline, vk::ShaderStageFlagBits::eFragment);
-  stage.statistics = statistics_of(on, fragment);
+  const auto fragment = find_executable(on, pipeline, vk::ShaderStageFlagBits::eFragment);
+  stage.statistics = read_statistics(on, fragment);
   stage.vertex_instructions =
-      statistics_of(on, executable_of(on, pipeline, vk::ShaderStageFlagBits::eVertex))[instructions_statistic];
-  stage.code = code_of(on, fragment);
+      read_statistics(on, find_executable(on, pipeline, vk::ShaderStageFlagBits::eVertex))[instructions_statistic];
+  stage.code = read_compiled_code(on, fragment);
   return stage;
 }
 

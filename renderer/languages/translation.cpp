@@ -161,7 +161,7 @@ void enter(std::string& structure, const std::string& line) {
   if (line.starts_with("}")) structure.clear();
 }
 
-Comments comments_of(const std::string& glsl) {
+Comments collect_comments(const std::string& glsl) {
   Comments comments;
   std::string above, structure, beside;
   for (const std::string& line : lines_of(glsl)) {
@@ -180,7 +180,7 @@ Comments comments_of(const std::string& glsl) {
 }  // namespace
 
 std::string with_comments(const std::string& text, const std::string& glsl) {
-  Comments comments = comments_of(glsl);
+  Comments comments = collect_comments(glsl);
   const std::vector<std::string> lines = lines_of(text);
   std::string out, structure, none, attributes;  // attributes: Metal's line above a function
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -195,7 +195,7 @@ Prefiltered precompute_on(const Scene& scene, std::size_t index, const Options& 
   const xu_vmf::Settings settings = xu_vmf::settings_of(options);
   Inputs inputs(material, effects, settings.joint);
   if (!settings.camera_space || !inputs.anything()) return precompute(material, options, effects, progress);
-  xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(triangles_of(scene, index), inputs.coordinates, inputs.size());
+  xu_vmf::SurfaceLayout layout = xu_vmf::lay_out(collect_triangles(scene, index), inputs.coordinates, inputs.size());
   // In a scene with maps, the single texel of a material without maps would show one normal of the whole mesh.
   if (inputs.size() == glm::ivec2(1)) {
     layout.unique = false;

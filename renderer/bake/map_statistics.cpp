@@ -36,7 +36,7 @@ void for_each_texel(const Image& normals, int level, int i, int j, Visit visit) 
   }
 }
 
-Block block_of(const Image& normals, int level, int i, int j) {
+Block measure_block(const Image& normals, int level, int i, int j) {
   Block block;
   glm::dvec3 sum(0.0);
   glm::dvec2 slopes(0.0);
@@ -58,13 +58,13 @@ Block block_of(const Image& normals, int level, int i, int j) {
 
 int blocks_along(int texels, int level) { return ((texels - 1) >> level) + 1; }
 
-std::vector<Block> blocks_of(const Image& normals, int level) {
+std::vector<Block> measure_blocks(const Image& normals, int level) {
   const int columns = blocks_along(normals.width, level), rows = blocks_along(normals.height, level);
   std::vector<Block> blocks(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   tbb::parallel_for(0, rows, [&](int j) {
     for (int i = 0; i < columns; ++i)
       blocks[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)] =
-          block_of(normals, level, i, j);
+          measure_block(normals, level, i, j);
   });
   return blocks;
 }
@@ -74,7 +74,7 @@ double eigenvalue_difference(const glm::dmat2& m) { return std::hypot(m[0][0] - 
 
 LevelStatistics statistics_at(const Image& normals, int level) {
   double count = 0, resultant = 0, trace = 0, difference = 0, fourth = 0, squares = 0;
-  for (const Block& block : blocks_of(normals, level)) {
+  for (const Block& block : measure_blocks(normals, level)) {
     if (block.count == 0) continue;
     const glm::dmat2& c = block.covariance;
     count += 1;
@@ -191,7 +191,7 @@ std::vector<LevelStatistics> map_statistics(const Image& normals) {
 std::optional<double> correlation_with_spread(const Image& normals, const Image& values, int level) {
   require_size(values, normals);
   const int columns = blocks_along(normals.width, level);
-  const std::vector<Block> blocks = blocks_of(normals, level);
+  const std::vector<Block> blocks = measure_blocks(normals, level);
   double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (blocks[b].count == 0) continue;

@@ -81,8 +81,8 @@ struct Prefiltered {
   std::map<std::string, float> scalars{};                   ///< uniform float NAME
   std::map<std::string, std::vector<glm::vec2>> vectors{};  ///< uniform vec2 NAME[size]; none is empty
   std::vector<std::string> notes{};  ///< remarks for the user, one sentence each, which tables show
-  /// For each vertex of the material (triangles_of): its uv in textures that show each point of the surface once. None:
-  /// the module only uses the maps' own coordinates.
+  /// For each vertex of the material (collect_triangles): its uv in textures that show each point of the surface once.
+  /// None: the module only uses the maps' own coordinates.
   std::optional<std::vector<glm::vec2>> surface_coordinates{};
 
   friend bool operator==(const Prefiltered&, const Prefiltered&) = default;

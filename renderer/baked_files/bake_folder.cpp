@@ -99,7 +99,7 @@ void require_same(const std::string& place, const char* what, const std::vector<
 
 void require_surface(const Prefiltered& maps, const Scene& scene, std::size_t material) {
   if (!maps.surface_coordinates) return;
-  const std::size_t expected = triangles_of(scene, material).vertices.size();
+  const std::size_t expected = collect_triangles(scene, material).vertices.size();
   if (maps.surface_coordinates->size() == expected) return;
   throw Error(ErrorKind::usage, "surface_coordinates",
               fmt::format("has {} items, and the model {} vertices of this material", maps.surface_coordinates->size(),

@@ -26,7 +26,7 @@ std::vector<double> shares_of(const Image& radiance, const std::vector<double>& 
 }
 
 // Sums of `weights` up to and with each entry as shares of all, the last one 1; evenly where all are 0.
-std::vector<float> sums_of(std::span<const double> weights) {
+std::vector<float> cumulative_shares(std::span<const double> weights) {
   std::vector<float> sums;
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   double sum = 0;
@@ -39,7 +39,7 @@ std::vector<float> sums_of(std::span<const double> weights) {
 }
 
 // For each of as many equal parts of 0 to 1 as there are sums: the first entry whose sum exceeds where the part begins.
-std::vector<float> guides_of(std::span<const float> sums) {
+std::vector<float> make_guides(std::span<const float> sums) {
   std::vector<float> guides;
   std::size_t entry = 0;
   for (std::size_t part = 0; part < sums.size(); ++part) {
@@ -103,12 +103,12 @@ DirectionTable direction_table(const Image& radiance) {
     table.sums.texels[2 * (y * (width + 1) + x)] = sum;
     table.sums.texels[2 * (y * (width + 1) + x) + 1] = guide;
   };
-  const std::vector<float> row_sums = sums_of(rows);
-  const std::vector<float> row_guides = guides_of(row_sums);
+  const std::vector<float> row_sums = cumulative_shares(rows);
+  const std::vector<float> row_guides = make_guides(row_sums);
   for (std::size_t y = 0; y < height; ++y) {
     set(width, y, row_sums[y], row_guides[y]);
-    const std::vector<float> sums = sums_of(std::span(shares).subspan(y * width, width));
-    const std::vector<float> guides = guides_of(sums);
+    const std::vector<float> sums = cumulative_shares(std::span(shares).subspan(y * width, width));
+    const std::vector<float> guides = make_guides(sums);
     for (std::size_t x = 0; x < width; ++x) {
       set(x, y, sums[x], guides[x]);
       float* const texel = &table.radiance.texels[4 * (y * width + x)];

@@ -105,7 +105,7 @@ Plane filtered(const Plane& plane, const Kernel& along_x, const Kernel& along_y)
 }
 
 template <typename Weight>
-Kernel kernel_of(int radius, Weight weight) {
+Kernel make_kernel(int radius, Weight weight) {
   Kernel kernel;
   for (int i = -radius; i <= radius; ++i) kernel.push_back(weight(static_cast<double>(i)));
   return kernel;
@@ -125,7 +125,7 @@ Plane as_seen(const Plane& plane, const Sensitivity& s, double pixels_per_degree
   const int radius =
       static_cast<int>(std::ceil(3.0 * std::sqrt(widest_sensitivity / (2.0 * pi * pi)) * pixels_per_degree));
   const auto gaussian = [&](double b) {
-    return kernel_of(
+    return make_kernel(
         radius, [&](double i) { return std::exp(-pi * pi * i * i / (b * pixels_per_degree * pixels_per_degree)); });
   };
   const Kernel first = gaussian(s.b1), second = gaussian(s.b2);
@@ -164,12 +164,12 @@ std::array<Plane, 2> features_of(const Plane& grey, double pixels_per_degree) {
   const double sigma = 0.5 * feature_width * pixels_per_degree;
   const int radius = static_cast<int>(std::ceil(3.0 * sigma));
   const auto gaussian = [&](double i) { return std::exp(-i * i / (2.0 * sigma * sigma)); };
-  Kernel smooth = kernel_of(radius, gaussian);
+  Kernel smooth = make_kernel(radius, gaussian);
   const double sum = sum_of(smooth);
   for (double& weight : smooth) weight /= sum;
-  const Kernel slope = balanced(kernel_of(radius, [&](double i) { return -i * gaussian(i); }));
+  const Kernel slope = balanced(make_kernel(radius, [&](double i) { return -i * gaussian(i); }));
   const Kernel bend =
-      balanced(kernel_of(radius, [&](double i) { return (i * i / (sigma * sigma) - 1.0) * gaussian(i); }));
+      balanced(make_kernel(radius, [&](double i) { return (i * i / (sigma * sigma) - 1.0) * gaussian(i); }));
   return {lengths(filtered(grey, slope, smooth), filtered(grey, smooth, slope)),
           lengths(filtered(grey, bend, smooth), filtered(grey, smooth, bend))};
 }
@@ -251,7 +251,7 @@ std::vector<Color> displayed(const Image& image, Display display) {
 }
 
 template <typename Display>
-Image flip_of(const Image& picture, const Image& reference, double pixels_per_degree, Display display) {
+Image compute_flip(const Image& picture, const Image& reference, double pixels_per_degree, Display display) {
   return difference(seen(displayed(picture, display), picture.width, picture.height, pixels_per_degree),
                     seen(displayed(reference, display), reference.width, reference.height, pixels_per_degree));
 }
@@ -275,7 +275,7 @@ double tone_inverse(double t) {
 
 Image ldr_flip(const Image& picture, const Image& reference, double pixels_per_degree) {
   require_flippable(picture, reference);
-  return flip_of(picture, reference, pixels_per_degree, [](float value) { return static_cast<double>(value); });
+  return compute_flip(picture, reference, pixels_per_degree, [](float value) { return static_cast<double>(value); });
 }
 
 FlipExposures flip_exposures(const Image& reference) {
@@ -300,8 +300,8 @@ Image hdr_flip(const Image& picture, const Image& reference, const FlipExposures
   for (int i = 0; i < exposures.count; ++i) {
     const double stops = std::lerp(exposures.start, exposures.stop, i / (exposures.count - 1.0));
     const double factor = std::exp2(stops);
-    const Image one = flip_of(picture, reference, pixels_per_degree,
-                              [factor](float value) { return tone(factor * static_cast<double>(value)); });
+    const Image one = compute_flip(picture, reference, pixels_per_degree,
+                                   [factor](float value) { return tone(factor * static_cast<double>(value)); });
     for (std::size_t k = 0; k < one.texels.size(); ++k) largest.texels[k] = std::max(largest.texels[k], one.texels[k]);
   }
   return largest;

@@ -78,7 +78,7 @@ double squared(double value) { return value * value; }
 // Values as shown by a display of peak 1.
 double displayed(double value, double exposure) { return std::clamp(exposure * value, 0.0, 1.0); }
 
-LuminanceHistogram histogram_of(std::span<const double> luminances) {
+LuminanceHistogram make_histogram(std::span<const double> luminances) {
   LuminanceHistogram counts{};
   for (const double y : luminances) {
     const auto bin = static_cast<std::size_t>(y * static_cast<double>(counts.size()));
@@ -166,7 +166,7 @@ std::optional<ErrorFigures> compare_images(const Image& picture, const Image& re
       reference_sum += r[c];
     }
   });
-  const LuminanceHistogram shown = histogram_of(shown_luminances), expected = histogram_of(reference_luminances);
+  const LuminanceHistogram shown = make_histogram(shown_luminances), expected = make_histogram(reference_luminances);
   return ErrorFigures{
       .normalized_color = distance / pixels,
       .relative_rmse = std::sqrt(ratio(squares, reference_squares)),

@@ -50,7 +50,7 @@ std::string reason_of_failure(const OIIO::ImageInput* input) {
   return reason.empty() ? "it is damaged" : reason;
 }
 
-std::string format_of(IOProxy& source, const std::string& name) {
+std::string detect_format(IOProxy& source, const std::string& name) {
   std::array<char, 16> head{};
   if (source.size() == 0) throw unreadable_image(name, "the file is empty");
   const std::size_t length = source.pread(head.data(), std::min(head.size(), source.size()), 0);
@@ -121,7 +121,7 @@ Error unreadable_image(const std::string& name, const std::string& message) {
 }
 
 OpenedImage::OpenedImage(IOProxy& source, std::string name, const ImageLimits& limits)
-    : name_(std::move(name)), format_(format_of(source, name_)), limits_(limits) {
+    : name_(std::move(name)), format_(detect_format(source, name_)), limits_(limits) {
   if (format_ == "png") read_png_chunks(source, name_, declared_);
   if (format_ == "hdr") rewrite_radiance(source);
   if (format_ == "webp") {

@@ -27,7 +27,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place) {
   return value;
 }
 
-std::string content_of(IOProxy& source, std::size_t start, std::size_t length) {
+std::string read_chunk_content(IOProxy& source, std::size_t start, std::size_t length) {
   std::string content(std::min(length, largest_content), '\0');
   content.resize(source.pread(content.data(), content.size(), static_cast<std::int64_t>(start)));
   return content;
@@ -35,7 +35,7 @@ std::string content_of(IOProxy& source, std::size_t start, std::size_t length) {
 
 // The declaring chunks by type. The walk goes to the end: where a chunk ends early, libpng would write to stderr and
 // OpenImageIO 2.4 would lose a string to libpng's longjmp.
-std::map<std::string, std::string> chunks_of(IOProxy& source, const std::string& name) {
+std::map<std::string, std::string> read_chunks(IOProxy& source, const std::string& name) {
   std::map<std::string, std::string> chunks;
   std::array<char, 8> head{};
   for (std::size_t start = signature_size; start + frame_size <= source.size();) {
@@ -43,7 +43,7 @@ std::map<std::string, std::string> chunks_of(IOProxy& source, const std::string&
     const std::size_t length = number_at({head.data(), 4}, 0);
     const std::string type(&head[4], 4);
     if (std::ranges::find(declaring, type) != declaring.end())
-      chunks.emplace(type, content_of(source, start + head.size(), length));
+      chunks.emplace(type, read_chunk_content(source, start + head.size(), length));
     start += frame_size + length;
     if (type == "IEND" && start <= source.size()) return chunks;
   }
@@ -77,7 +77,7 @@ void take_chromaticities(std::string_view content, Declarations& declared) {
 }  // namespace
 
 void read_png_chunks(IOProxy& source, const std::string& name, Declarations& declared) {
-  const std::map<std::string, std::string> chunks = chunks_of(source, name);
+  const std::map<std::string, std::string> chunks = read_chunks(source, name);
   const auto content = [&](const char* type, std::size_t least) -> const std::string* {
     const auto found = chunks.find(type);
     return found != chunks.end() && found->second.size() >= least ? &found->second : nullptr;

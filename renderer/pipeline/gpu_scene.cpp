@@ -136,8 +136,8 @@ std::size_t most_lobes_of(std::span<const Material> materials) {
 void add_to_hash(std::uint64_t& hash, std::span<const std::byte> bytes) { hash = fnv1a(bytes, hash); }
 
 // All triangles of a material in one draw call, hashed into `content`.
-GpuBatch batch_of(const Scene& scene, std::size_t material, const EffectSet& effects, SceneContent& content) {
-  const auto [vertices, indices] = triangles_of(scene, material);
+GpuBatch make_batch(const Scene& scene, std::size_t material, const EffectSet& effects, SceneContent& content) {
+  const auto [vertices, indices] = collect_triangles(scene, material);
   if (indices.empty()) return {};
   if (indices.size() > static_cast<std::size_t>(std::numeric_limits<GLsizei>::max())) {
     throw Error(ErrorKind::machine, scene.source, "one material has more indices than a draw call takes", "split it");
@@ -285,7 +285,7 @@ GpuScene::GpuScene(const gl::ContextInfo& context, const Scene& scene, const Eff
   }
   SharedUploads uploads;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    GpuBatch batch = batch_of(scene, i, effects, content_);
+    GpuBatch batch = make_batch(scene, i, effects, content_);
     if (batch.index_count == 0) continue;
     add_shared_textures(scene.materials[i], effects, uploads, batch);
     batch.index = batches_.size();
@@ -373,7 +373,7 @@ void GpuScene::update(const Scene& scene) {
   SceneContent content;
   for (const GpuBatch& batch : batches_) {
     require(batch.material < scene.materials.size(), "materials");
-    const TriangleSoup triangles = triangles_of(scene, batch.material);
+    const TriangleSoup triangles = collect_triangles(scene, batch.material);
     require(triangles.vertices.size() == batch.vertex_count, "vertices");
     const auto vertices = std::as_bytes(std::span(triangles.vertices));
     const std::vector<glm::vec4> block = material_block(scene.materials[batch.material], effects_);

@@ -119,7 +119,7 @@ InteriorFinder::SamplePasses InteriorFinder::make_passes(bool shadows) const {
 
 void InteriorFinder::add_parts(const Scene& values) {
   for (const GpuBatch& batch : scene_->batches()) {
-    const auto [vertices, indices] = triangles_of(values, batch.material);
+    const auto [vertices, indices] = collect_triangles(values, batch.material);
     const Charts charts = charts_of(vertices, indices, values.materials[batch.material]);
     std::vector<glm::vec2> numbers;  // exact in 32 bits up to 16 million
     for (const std::uint32_t chart : charts.of_vertex) numbers.emplace_back(chart + 1, batch.material + 1);

@@ -15,7 +15,7 @@ namespace {
 /// during the first half second.
 constexpr std::chrono::duration<double> gpu_warm_up(1.0);
 
-double time_of(gl::FrameTimer& timer, const DrawFrame& draw) {
+double time_frame(gl::FrameTimer& timer, const DrawFrame& draw) {
   timer.begin();
   draw();
   return timer.end_ms();
@@ -25,7 +25,7 @@ double time_of(gl::FrameTimer& timer, const DrawFrame& draw) {
 void warm_up(const gl::ContextInfo& context, gl::FrameTimer& timer, std::span<const DrawFrame> candidates) {
   const auto start = std::chrono::steady_clock::now();
   do {
-    for (const DrawFrame& draw : candidates) time_of(timer, draw);
+    for (const DrawFrame& draw : candidates) time_frame(timer, draw);
   } while (!context.software && std::chrono::steady_clock::now() - start < gpu_warm_up);
 }
 
@@ -41,7 +41,7 @@ RepeatedTimes interleaved_times(const gl::ContextInfo& context, std::span<const 
     progress("timing frames", static_cast<double>(repeat + 1) / (repeats + 1));
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const std::size_t candidate = (i + static_cast<std::size_t>(repeat + 1)) % candidates.size();
-      times[candidate].push_back(time_of(timer, candidates[candidate]));
+      times[candidate].push_back(time_frame(timer, candidates[candidate]));
     }
     if (is_enough && is_enough(times)) break;
   }

@@ -108,7 +108,7 @@ std::vector<std::uint32_t> triangle_list(std::span<const std::uint32_t> indices,
   return list;
 }
 
-TriangleSoup triangles_of(const Scene& scene, std::size_t material) {
+TriangleSoup collect_triangles(const Scene& scene, std::size_t material) {
   TriangleSoup all;
   for (const Mesh& mesh : scene.meshes) {
     if (static_cast<std::size_t>(mesh.material) != material) continue;

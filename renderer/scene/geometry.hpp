@@ -27,7 +27,7 @@ struct TriangleSoup {
 };
 
 /// All triangles of a material, mesh by mesh.
-[[nodiscard]] TriangleSoup triangles_of(const Scene& scene, std::size_t material);
+[[nodiscard]] TriangleSoup collect_triangles(const Scene& scene, std::size_t material);
 
 /// Removes unused vertices and renumbers the others in order of first use.
 void drop_unused_vertices(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices);

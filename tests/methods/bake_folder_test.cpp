@@ -131,7 +131,8 @@ TEST(BakeFolder, HasVectorsAndSurfaceCoordinates) {
   maps.vectors["directions"] = {{0.1F, 1e-30F}, {-3.0F, 0.0F}};
   for (int i = 0; i < 9; ++i) maps.vectors["directions"].emplace_back(i, 0.5F);
   maps.surface_coordinates.emplace();
-  for (const Vertex& vertex : triangles_of(bake.scene, 0).vertices) maps.surface_coordinates->push_back(vertex.uv0);
+  for (const Vertex& vertex : collect_triangles(bake.scene, 0).vertices)
+    maps.surface_coordinates->push_back(vertex.uv0);
   const fs::path path = written(bake);
   EXPECT_EQ(BakeFolder(path).read(bake.baked, bake.scene, 0, bake.effects), maps);
 }

@@ -201,7 +201,7 @@ void append_chunk(Bytes& file, std::string_view kind, std::span<const std::uint8
 }
 
 // A GLB file without what is passed over.
-Bytes glb_of(std::string_view text, std::span<const std::uint8_t> binary) {
+Bytes assemble_glb(std::string_view text, std::span<const std::uint8_t> binary) {
   constexpr std::size_t headers = 12 + 8 + 8;
   Bytes file;
   file.reserve(headers + text.size() + binary.size() + 8);
@@ -254,7 +254,7 @@ void read_members(GltfDocument& document, Bytes bytes) {
   const bool in_chunk = source.json.contains(first) && !source.json[first].contains("uri");
   const auto chunk_size = in_chunk ? source.json[first]["byteLength"].get<std::size_t>() : 0;
   const std::string text = std::exchange(source.json, {}).dump();
-  const Bytes glb = in_chunk ? glb_of(text, binary->first(chunk_size)) : Bytes{};
+  const Bytes glb = in_chunk ? assemble_glb(text, binary->first(chunk_size)) : Bytes{};
   bytes = {};  // the memory of a large file is needed below
   tinygltf::Model& model = document.model = parse(text, glb, source.files);
   for (std::size_t i = 0; i < model.buffers.size(); ++i) {

@@ -345,8 +345,8 @@ std::optional<Mesh> convert(Builder& builder, const MeshPose& pose, const Materi
   return Mesh{builder.place, std::move(builder.vertices), std::move(builder.indices), 0};
 }
 
-Builder builder_of(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
-                   std::vector<std::string>& warnings) {
+Builder read_primitive(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
+                       std::vector<std::string>& warnings) {
   const Json& mesh = document.json["meshes"][mesh_index];
   return {document, mesh["primitives"][primitive_index], warnings,
           fmt::format("mesh {} `{:.80}`, primitive {}", mesh_index, mesh.value("name", ""), primitive_index)};
@@ -367,14 +367,14 @@ auto within_place(const Builder& builder, const Action& action) {
 WideBounds primitive_bounds(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
                             const MeshPose& pose) {
   std::vector<std::string> told_by_conversion;
-  Builder builder = builder_of(document, mesh_index, primitive_index, told_by_conversion);
+  Builder builder = read_primitive(document, mesh_index, primitive_index, told_by_conversion);
   return within_place(builder, [&] { return triangle_bounds(builder, pose); });
 }
 
 std::optional<Mesh> convert_primitive(const GltfDocument& document, std::size_t mesh_index, std::size_t primitive_index,
                                       const MeshPose& pose, const Material& material, const UvSets& sets,
                                       std::vector<std::string>& warnings) {
-  Builder builder = builder_of(document, mesh_index, primitive_index, warnings);
+  Builder builder = read_primitive(document, mesh_index, primitive_index, warnings);
   return within_place(builder, [&] { return convert(builder, pose, material, sets); });
 }
 

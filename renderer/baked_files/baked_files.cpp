@@ -192,7 +192,8 @@ void write_bake(const BakeToFiles& bake, const std::filesystem::path& folder) {
     if (i < bake.engine.size()) write_textures(bake.engine[i].textures, files.imports, folder);
     if (!files.bumpslopes) continue;
     const bool halves = prefiltered.textures.front().storage == Storage::fp16;
-    write_exr_chain(folder / *files.bumpslopes, *bumpslopes_of(prefiltered), halves ? ExrTexel::half : ExrTexel::full);
+    write_exr_chain(folder / *files.bumpslopes, *make_bumpslopes(prefiltered),
+                    halves ? ExrTexel::half : ExrTexel::full);
   }
   write_file_atomically(folder / listing.module, module_text(bake));
   for (std::size_t i = 0; i < listing.shaders.size(); ++i)

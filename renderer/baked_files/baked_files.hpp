@@ -138,7 +138,7 @@ void read_ktx2(const ByteSource& file, PrefilteredTexture& texture);
 
 /// Converts `slope_moments` and `slope_rest` of a bake (bake_slopes) to that layout. Nothing if one is missing or the
 /// covariance is not complete.
-[[nodiscard]] std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered);
+[[nodiscard]] std::optional<ExrChain> make_bumpslopes(const Prefiltered& prefiltered);
 
 /// The normals of the slopes in the finest level: 4 channels, as Material::normal_map. OpenImageIO's slopes of a height
 /// map are per texel and point down along v; those of a normal map point up, as its green channel. The former are

@@ -98,7 +98,7 @@ bool holds_slope_moments(const Prefiltered& prefiltered) {
   return moments != nullptr && moments->channels == 4 && find_texture(prefiltered, "slope_rest") != nullptr;
 }
 
-std::optional<ExrChain> bumpslopes_of(const Prefiltered& prefiltered) {
+std::optional<ExrChain> make_bumpslopes(const Prefiltered& prefiltered) {
   if (!holds_slope_moments(prefiltered)) return {};
   const PrefilteredTexture& moments = *find_texture(prefiltered, "slope_moments");
   const PrefilteredTexture& rest = *find_texture(prefiltered, "slope_rest");

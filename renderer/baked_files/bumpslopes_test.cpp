@@ -62,7 +62,7 @@ void expect_alike(const std::vector<Image>& a, const std::vector<Image>& b) {
 TEST(Bumpslopes, AreThoseOfOpenImageIO) {
   const Image normals = random_normals(64, 32, 0.7F, 4);  // slopes below 1: none is cut off
   const ExrChain theirs = read_exr_chain(made_by_openimageio(without_weight(normals), "normal"));
-  const ExrChain ours = bumpslopes_of(lean_of(normals)).value();
+  const ExrChain ours = make_bumpslopes(lean_of(normals)).value();
   EXPECT_EQ(ours.channels, theirs.channels);
   expect_alike(ours.levels, theirs.levels);
 }
@@ -88,7 +88,7 @@ TEST(Bumpslopes, LeaveTheMeanNormal) {
   const Prefiltered own = lean_of(random_normals(16, 16, 0.5F, 1), with_normal);
   const Prefiltered other = lean_of(random_normals(16, 16, 0.5F, 2), with_normal);
   Prefiltered taken = own;
-  replace_moments(bumpslopes_of(other).value(), taken);
+  replace_moments(make_bumpslopes(other).value(), taken);
   EXPECT_EQ(taken.textures[0], other.textures[0]);
   const Image rest = decode_level(taken.textures[1], 0);
   const Image expected_cross = decode_level(other.textures[1], 0), expected_normal = decode_level(own.textures[1], 0);
@@ -143,7 +143,7 @@ TEST(Bumpslopes, OfAnotherLayoutAreRefused) {
     }
     return std::string("no error");
   };
-  ExrChain chain = bumpslopes_of(lean_of(random_normals(8, 8, 0.5F, 1))).value();
+  ExrChain chain = make_bumpslopes(lean_of(random_normals(8, 8, 0.5F, 1))).value();
   EXPECT_EQ(refusal(chain), "no error");
   ExrChain other = chain;
   other.channels = {"R", "G", "B", "A", "X", "Y"};
@@ -159,7 +159,7 @@ TEST(Bumpslopes, OfAnotherLayoutAreRefused) {
 TEST(Bumpslopes, AreNotInOtherBakes) {
   Prefiltered other = lean_of(random_normals(8, 8, 0.5F, 1));
   other.textures.pop_back();
-  EXPECT_FALSE(bumpslopes_of(other).has_value());
+  EXPECT_FALSE(make_bumpslopes(other).has_value());
   EXPECT_FALSE(holds_slope_moments(other));
 }
 

@@ -128,7 +128,7 @@ auto word_of(const Words& words, const JsonValue& value) {
   return word_value(words, text_of(value), "word", "");
 }
 
-TextureCoordinates coordinates_of(const JsonValue& json) {
+TextureCoordinates parse_coordinates(const JsonValue& json) {
   TextureCoordinates coordinates;
   const int set = at_member(json, "set", [](const JsonValue& value) { return whole_of(value, 0, largest_set); });
   coordinates.set = json.contains("vertex_set")
@@ -147,7 +147,7 @@ TextureCoordinates coordinates_of(const JsonValue& json) {
 }
 
 // `filter` says `linear` of two kinds.
-TextureFilter filter_of(const JsonValue& json) {
+TextureFilter parse_filter(const JsonValue& json) {
   const auto lookup = [](const JsonValue& value) { return word_of(manifest_lookups, value); };
   if (json.contains("lookup")) return at_member(json, "lookup", lookup);
   const TextureFilter filter = at_member(json, "filter", lookup);
@@ -156,7 +156,7 @@ TextureFilter filter_of(const JsonValue& json) {
   return filter;
 }
 
-std::vector<TextureLevel> levels_of(const JsonValue& sizes) {
+std::vector<TextureLevel> parse_levels(const JsonValue& sizes) {
   std::vector<TextureLevel> levels;
   for (const JsonValue& size : list_of(sizes))
     levels.push_back({.width = whole_of(list_of(size, 2)[0], 1, largest_map),
@@ -184,22 +184,22 @@ void require_channels(Storage storage, int channels) {
     refuse_member("channels", fmt::format("is {}, and {} has {}", channels, storage_name(storage), only));
 }
 
-PrefilteredTexture texture_of(const JsonValue& json) {
+PrefilteredTexture parse_texture(const JsonValue& json) {
   PrefilteredTexture texture;
   texture.name = at_member(json, "name", [](const JsonValue& value) { return identifier_of(text_of(value)); });
   texture.storage = parse_storage(at_member(json, "storage", text_of));
   texture.channels = at_member(json, "channels", [](const JsonValue& value) { return whole_of(value, 1, 4); });
   require_channels(texture.storage, texture.channels);
   texture.layers = at_member(json, "layers", [](const JsonValue& value) { return whole_of(value, 0, most_layers); });
-  texture.filter = filter_of(json);
-  texture.coordinates = at_member(json, "coordinates", coordinates_of);
-  texture.levels = at_member(json, "levels", levels_of);
+  texture.filter = parse_filter(json);
+  texture.coordinates = at_member(json, "coordinates", parse_coordinates);
+  texture.levels = at_member(json, "levels", parse_levels);
   return texture;
 }
 
 using Uniforms = std::map<std::string, std::vector<float>>;
 
-Uniforms uniforms_of(const JsonValue& json) {
+Uniforms parse_uniforms(const JsonValue& json) {
   Uniforms uniforms;
   for (const auto& [name, value] : object_of(json).items()) {
     try {
@@ -217,21 +217,21 @@ std::vector<glm::vec2> pairs_of(const JsonValue& value) {
   return pairs;
 }
 
-ManifestMaterial material_of(const JsonValue& json) {
+ManifestMaterial parse_material(const JsonValue& json) {
   ManifestMaterial material;
   material.name = at_member(json, "name", text_of);
-  material.uniforms = at_member(json, "uniforms", uniforms_of);
+  material.uniforms = at_member(json, "uniforms", parse_uniforms);
   material.maps.notes = at_member(json, json.contains("method_notes") ? "method_notes" : "notes", texts_of);
   if (json.contains("surface_coordinates"))
     material.maps.surface_coordinates = at_member(json, "surface_coordinates", pairs_of);
   at_each(json, "textures", [&](const JsonValue& texture) {
-    material.maps.textures.push_back(texture_of(object_of(texture)));
+    material.maps.textures.push_back(parse_texture(object_of(texture)));
     material.ktx2.push_back(at_member(texture, "ktx2", path_of));
   });
   return material;
 }
 
-std::map<std::string, std::string> word_map_of(const JsonValue& json) {
+std::map<std::string, std::string> parse_words(const JsonValue& json) {
   std::map<std::string, std::string> words;
   for (const auto& [name, value] : object_of(json).items()) {
     if (!value.is_primitive()) refuse_member(fmt::format("{:.80}", name), "is neither a text nor a number");
@@ -248,18 +248,18 @@ glm::vec2 item_of(const Uniforms& uniforms, const std::string& name, std::size_t
   return {found->second[0], found->second[1]};
 }
 
-BakeManifest manifest_of(const JsonValue& json) {
+BakeManifest parse_manifest(const JsonValue& json) {
   if (at_member(json, "schema", text_of) != manifest_schema)
     refuse_member("schema", fmt::format("is not `{}`", manifest_schema));
   BakeManifest manifest;
   manifest.method = at_member(json, "method", text_of);
   manifest.module = at_member(json, "module", text_of);
   if (json.contains("method_file")) manifest.method_file = at_member(json, "method_file", text_of);
-  manifest.options = at_member(json, "options", word_map_of);
-  manifest.brdf = at_member(json, "brdf", word_map_of);
+  manifest.options = at_member(json, "options", parse_words);
+  manifest.brdf = at_member(json, "brdf", parse_words);
   manifest.effects = at_member(json, "effects", texts_of);
   at_each(json, "materials",
-          [&](const JsonValue& material) { manifest.materials.push_back(material_of(object_of(material))); });
+          [&](const JsonValue& material) { manifest.materials.push_back(parse_material(object_of(material))); });
   return manifest;
 }
 
@@ -268,7 +268,7 @@ BakeManifest manifest_of(const JsonValue& json) {
 BakeManifest read_manifest(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = read_file_bytes(file, largest_manifest);
   try {
-    return manifest_of(object_of(parse_gltf_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
+    return parse_manifest(object_of(parse_gltf_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
   } catch (const Error& error) {
     throw error.within(file.string());
   }

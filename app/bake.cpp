@@ -50,7 +50,7 @@ struct BakeArguments : RunArguments {
 };
 
 // Other than GLSL, which every bake has; each once.
-std::vector<ShaderLanguage> languages_of(const std::string& list) {
+std::vector<ShaderLanguage> parse_languages(const std::string& list) {
   std::vector<ShaderLanguage> languages;
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
@@ -102,7 +102,7 @@ void take_slopes(const ExrChain& slopes, BakedMethod& baked) {
   replace_moments(slopes, baked.materials.front());
 }
 
-std::vector<EngineMaps> engine_maps_of(const Scene& scene, const BakedMethod& baked) {
+std::vector<EngineMaps> make_engine_maps(const Scene& scene, const BakedMethod& baked) {
   std::vector<EngineMaps> maps;
   for (const Material& material : scene.materials) maps.push_back(engine_maps(baked, material));
   return maps;
@@ -148,7 +148,7 @@ std::string summary(const BakeToFiles& bake) {
 
 void run_bake(const BakeArguments& arguments) {
   const RunSettings run = arguments.settings();
-  const std::vector<ShaderLanguage> languages = languages_of(arguments.languages);
+  const std::vector<ShaderLanguage> languages = parse_languages(arguments.languages);
   require_room(arguments.output);
   if (arguments.gltf) require_gltf(run.scene);
   ProgressDisplay display(progress_style(arguments.quiet));
@@ -167,7 +167,7 @@ void run_bake(const BakeArguments& arguments) {
                            .effects = effects,
                            .footprint = footprint_filter_of(run.footprint, scene),
                            .version = FOOTPRINT_VERSION,
-                           .engine = engine_maps_of(scene, baked),
+                           .engine = make_engine_maps(scene, baked),
                            .languages = languages};
     write_bake(bake, folder.path());
     std::string copy;

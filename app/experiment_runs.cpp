@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scratch, const Progress& progress) {
+FurtherTimes measure_further_times(const Experiment& experiment, const fs::path& scratch, const Progress& progress) {
   return times_of_processes(experiment.run.timing.processes - 1, {timing_member_option, experiment.full_name()},
                             scratch, progress);
 }
@@ -32,11 +32,11 @@ FurtherTimes further_times_of(const Experiment& experiment, const fs::path& scra
 Results run_into(const Experiment& experiment, OutputFolder& folder, const FinishedWork& finished,
                  const Progress& progress, const RecordWatch& watch) {
   ProgressParts parts(progress, main_process_weight + experiment.run.timing.processes - 1);
-  const CompareContext context{
-      .further_times = further_times_of(experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, "")),
-      .finished = &finished,
-      .watch = watch,
-      .gpu_compiler = amd_compiler_if_installed()};
+  const CompareContext context{.further_times = measure_further_times(
+                                   experiment, folder.path(), parts.next(experiment.run.timing.processes - 1, "")),
+                               .finished = &finished,
+                               .watch = watch,
+                               .gpu_compiler = amd_compiler_if_installed()};
   Results results = run_experiment(experiment, folder.run(), parts.next(main_process_weight, ""), context);
   keep_results(results, folder, write_report);
   return results;
@@ -128,7 +128,7 @@ std::vector<WorkUnit> share_of(const std::vector<WorkUnit>& all, const Shard& sh
 
 constexpr std::uint64_t largest_experiment = 1U << 26U;  // bytes of TOML
 
-Experiment experiment_of(const std::filesystem::path& file, const ExperimentRequest& request) {
+Experiment load_experiment(const std::filesystem::path& file, const ExperimentRequest& request) {
   Experiment experiment = read_experiment(file);
   request.apply(experiment.run);
   if (request.quick && experiment.axes.empty()) make_quick(experiment);  // a matrix: each member
@@ -169,7 +169,7 @@ std::vector<ExperimentGroup> groups_in(const fs::path& folder, const ExperimentR
   std::vector<ExperimentGroup> groups;
   for (const std::string& name : list_experiments(folder)) {
     if (!std::regex_search(name, only)) continue;
-    const Experiment experiment = experiment_of(folder / (name + ".toml"), request);
+    const Experiment experiment = load_experiment(folder / (name + ".toml"), request);
     if (!experiment.members.empty()) continue;
     groups.push_back(experiment.axes.empty() ? ExperimentGroup{.experiments = {experiment}}
                                              : matrix_group(experiment, "", request.quick));
@@ -185,7 +185,7 @@ std::vector<ExperimentGroup> members_of(const Experiment& named, const Experimen
   std::vector<ExperimentGroup> members;
   for (const fs::path& file : named.members) {
     if (!std::regex_search(file.stem().string(), only)) continue;
-    const Experiment member = experiment_of(file, request);
+    const Experiment member = load_experiment(file, request);
     if (!member.members.empty() || !member.axes.empty())
       throw Error(ErrorKind::usage, named.file.string(), fmt::format("its member {} has members", member.name),
                   "name those instead");
@@ -218,7 +218,7 @@ ExperimentGroup region_group(const Experiment& stated, const ExperimentRequest& 
 }
 
 // The settings that enter are those that a command line may set beside the file.
-std::string fingerprint_of(const RequestedExperiments& requested, const ExperimentRequest& request) {
+std::string compute_fingerprint(const RequestedExperiments& requested, const ExperimentRequest& request) {
   ContentHash hash;
   const auto add_file = [&](const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = read_file_bytes(file, largest_experiment);
@@ -255,10 +255,10 @@ RequestedExperiments requested_experiments(const ExperimentRequest& request) {
     requested.groups = groups_in(requested.file, request);
   } else {
     requested.file = find_experiment(request.experiment, experiments_folder());
-    const Experiment named = experiment_of(requested.file, request);
+    const Experiment named = load_experiment(requested.file, request);
     requested.groups = request.region ? std::vector{region_group(named, request)} : groups_of(named, request);
   }
-  requested.fingerprint = fingerprint_of(requested, request);
+  requested.fingerprint = compute_fingerprint(requested, request);
   return requested;
 }
 
@@ -348,7 +348,7 @@ void run_part(const RequestedExperiments& requested, const Shard& shard, const f
     const RunFolder pictures = scratch.run().below(experiment.full_name());
     fs::create_directories(pictures.path());
     measure_unit(unit, pictures, progress,
-                 {.further_times = further_times_of(experiment, pictures.path(), progress),
+                 {.further_times = measure_further_times(experiment, pictures.path(), progress),
                   .finished = &finished,
                   .watch = guards.at(&experiment)->watch(experiment),
                   .gpu_compiler = amd_compiler_if_installed()});

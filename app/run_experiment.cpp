@@ -151,7 +151,7 @@ void run(const ExperimentArguments& arguments) {
 constexpr std::uint64_t largest_baseline = 1U << 26U;  // bytes
 
 // None if the file does not exist and is about to be written.
-std::optional<Baseline> baseline_of(const CheckReports& reports) {
+std::optional<Baseline> read_baseline(const CheckReports& reports) {
   if (reports.baseline.empty()) {
     if (!reports.update) return {};
     throw Error(ErrorKind::usage, "--update-baseline", "the baseline is not given", "add --baseline FILE");
@@ -168,7 +168,7 @@ std::optional<Baseline> baseline_of(const CheckReports& reports) {
 class CheckReporter {
  public:
   // Reads the baseline. Errors (usage): it is missing or not a baseline; it is to be updated and not named.
-  explicit CheckReporter(const CheckReports& reports) : reports_(reports), baseline_(baseline_of(reports)) {}
+  explicit CheckReporter(const CheckReports& reports) : reports_(reports), baseline_(read_baseline(reports)) {}
 
   void add(const ExperimentReport& report) {
     ++runs_;

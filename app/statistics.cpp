@@ -79,7 +79,7 @@ Image read_values(const std::string& file, float most) {
 }
 
 // The alphas of --alpha or --roughness; empty without either.
-Image alphas_of(const StatisticsArguments& arguments) {
+Image read_alphas(const StatisticsArguments& arguments) {
   if (arguments.alpha) return {1, 1, 1, static_cast<float>(*arguments.alpha)};
   if (arguments.roughness.empty()) return {};
   const Image roughness = read_values(arguments.roughness, 1.0F);
@@ -91,7 +91,7 @@ Image alphas_of(const StatisticsArguments& arguments) {
   return alphas;
 }
 
-Statistics statistics_of(const StatisticsArguments& arguments) {
+Statistics compute_statistics(const StatisticsArguments& arguments) {
   const NormalFile file = arguments.how.of(arguments.map);
   std::vector<std::string> faults;
   const Image normals = read_normals(file, faults).decoded();
@@ -106,7 +106,7 @@ Statistics statistics_of(const StatisticsArguments& arguments) {
     statistics.correlation =
         of_file(arguments.gloss, [&] { return correlation_with_spread(normals, gloss, correlated_level); });
   }
-  const Image alphas = alphas_of(arguments);
+  const Image alphas = read_alphas(arguments);
   if (alphas.empty()) return statistics;
   statistics.mean_alpha = mean_of(alphas);
   for (const LevelStatistics& level : statistics.levels)
@@ -154,7 +154,7 @@ std::string json_of(const Statistics& statistics) {
 }
 
 void run_statistics(const StatisticsArguments& arguments) {
-  const Statistics statistics = statistics_of(arguments);
+  const Statistics statistics = compute_statistics(arguments);
   write_output(arguments.json ? json_of(statistics) : text_of(statistics));
 }
 

@@ -194,7 +194,7 @@ Prefiltered precompute(const Material& material, const Options& options, const E
     classes = classes_of(widths, settings.most_across);
     texels = texels_of(classes, widths);
   }
-  const InverseMap inverse = inverse_of(bins, progress, texels);
+  const InverseMap inverse = invert_map(bins, progress, texels);
   add_inverse_map(inverse, out);
   if (by_width) add_list_values("bins_widths", list_means(inverse, widths), 1, out);
   if (!settings.bin) {

@@ -268,7 +268,7 @@ BinMap bin_map(const Image& normals, int across, const Progress& progress) {
   return out;
 }
 
-InverseMap inverse_of(const BinMap& map, const Progress& progress, const TexelClasses& classes) {
+InverseMap invert_map(const BinMap& map, const Progress& progress, const TexelClasses& classes) {
   InverseMap out{.width = map.width, .height = map.height, .texels = {}, .lists = {}, .forest = {}};
   progress("sorting texels", 0.0);
   sort_by_bin(map, classes, out);

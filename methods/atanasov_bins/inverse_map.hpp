@@ -95,7 +95,7 @@ struct Branches {
                                    std::uint32_t end);
 
 /// The inverse of a bin map; without classes one has the map's own bins. Equal results at any number of threads.
-[[nodiscard]] InverseMap inverse_of(const BinMap& map, const Progress& progress, const TexelClasses& classes = {});
+[[nodiscard]] InverseMap invert_map(const BinMap& map, const Progress& progress, const TexelClasses& classes = {});
 
 /// A hash table from key to list: slots of two integers, open addressing from `hash_slot`, empty ones have no_key.
 [[nodiscard]] std::vector<std::uint32_t> hashed_lists(const InverseMap& map);

@@ -38,7 +38,7 @@ Image some_normals(int width, int height, double tilt, bool with_invalid = true)
 }
 
 struct Maps {
-  Maps(const Image& normals, int m) : bins(bin_map(normals, m, no_progress)), inverse(inverse_of(bins, no_progress)) {}
+  Maps(const Image& normals, int m) : bins(bin_map(normals, m, no_progress)), inverse(invert_map(bins, no_progress)) {}
   BinMap bins;
   InverseMap inverse;
 
@@ -105,9 +105,9 @@ TEST(InverseMap, NodesAreOneIntegerOrTwoByTheirTexels) {
 TEST(InverseMap, IsTheSameAtAnyNumberOfThreads) {
   for (const double tilt : {0.02, 0.9}) {
     const BinMap bins = bin_map(some_normals(700, 500, tilt), 63, no_progress);
-    const InverseMap many = inverse_of(bins, no_progress);
+    const InverseMap many = invert_map(bins, no_progress);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const InverseMap single = inverse_of(bins, no_progress);
+    const InverseMap single = invert_map(bins, no_progress);
     EXPECT_EQ(many.texels, single.texels);
     EXPECT_EQ(many.forest, single.forest);
   }
@@ -136,7 +136,7 @@ TEST(InverseMap, HasListsOfItsOwnForEveryClass) {
   const BinMap bins = bin_map(some_normals(60, 40, 0.9), 63, no_progress);
   TexelClasses classes{.across = {63, 9}, .of_texel = {}};
   for (std::size_t i = 0; i < bins.normals.size(); ++i) classes.of_texel.push_back(i % 7 < 3 ? 1 : 0);
-  const InverseMap map = inverse_of(bins, no_progress, classes);
+  const InverseMap map = invert_map(bins, no_progress, classes);
   const std::vector<std::uint32_t> table = hashed_lists(map);
   std::size_t seen = 0;
   for (std::size_t i = 0; i + 1 < map.lists.size(); ++i) {

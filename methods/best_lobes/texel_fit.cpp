@@ -101,7 +101,7 @@ struct Lattice {
   double widened = 1.0;  // of the base lobe's variance
 };
 
-Lattice lattice_of(const std::vector<PlaneNormal>& normals, const LobeFamily& family) {
+Lattice build_lattice(const std::vector<PlaneNormal>& normals, const LobeFamily& family) {
   double finest = 1.0, coarsest = 0.5;  // of the plane's scale over the normals
   for (const PlaneNormal& normal : normals) {
     const double scale = std::sqrt(plane_variance(normal.at));
@@ -127,7 +127,7 @@ class Distance {
   Distance(const std::vector<PlaneNormal>& normals, const LobeFamily& family, Weights weights)
       : normals_(&normals),
         weights_(weights),
-        lattice_(lattice_of(normals, family)),
+        lattice_(build_lattice(normals, family)),
         family_(family.distribution(), family.variance() * lattice_.widened, family.shape()) {
     target_ = LobeVector::Zero(static_cast<Eigen::Index>(lattice_.directions.size()));
     for (const PlaneNormal& normal : normals)

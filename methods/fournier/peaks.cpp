@@ -33,7 +33,7 @@ void merge_cheapest_pair(std::vector<Moments>& sets) {
 }
 
 // Indices of the heaviest normals that are `apart` from each other, followed by the heaviest of the others.
-std::vector<std::size_t> seeds_of(const std::vector<Peak>& normals, std::size_t count, double apart) {
+std::vector<std::size_t> choose_seeds(const std::vector<Peak>& normals, std::size_t count, double apart) {
   std::vector<std::size_t> order(normals.size()), seeds, near;
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return normals[i].weight; });
@@ -62,7 +62,7 @@ constexpr double largest_edge = 0.5;
 }  // namespace
 
 std::vector<Peak> clustered_peaks(const std::vector<Peak>& normals, std::size_t count, double apart) {
-  const std::vector<std::size_t> seeds = seeds_of(normals, count, apart);
+  const std::vector<std::size_t> seeds = choose_seeds(normals, count, apart);
   std::vector<Moments> sets(count);
   for (const Peak& normal : normals) {
     const auto nearest = std::ranges::min_element(

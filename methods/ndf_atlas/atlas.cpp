@@ -178,7 +178,7 @@ std::size_t block_count(int width, int height, int first_level) {
 
 }  // namespace
 
-LevelTables tables_of(const Facets& facets, const Lattice& lattice, int level, const Progress& progress) {
+LevelTables build_tables(const Facets& facets, const Lattice& lattice, int level, const Progress& progress) {
   const std::vector<AxisTaps> columns = axis_taps(facets.width, level);
   const std::vector<AxisTaps> rows = axis_taps(facets.height, level);
   const NodeSums nodes(facets, lattice);

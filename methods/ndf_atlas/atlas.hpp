@@ -37,7 +37,7 @@ struct Facets {
 };
 
 /// The facets of a material. `rough`: with the roughness texels above; none unless these lie on the normal map's.
-[[nodiscard]] std::optional<Facets> facets_of(const Material& material, bool rough);
+[[nodiscard]] std::optional<Facets> collect_facets(const Material& material, bool rough);
 
 /// n_xy sqrt(2 / (1 + n_z)): Lambert's azimuthal equal-area map; the horizon has radius sqrt(2), the pole below 2.
 [[nodiscard]] glm::dvec2 plane_of(const glm::dvec3& direction);
@@ -83,7 +83,8 @@ struct LevelTables {
 };
 
 /// The tables of `level`, 0 being the finest. Equal arguments give equal values at any number of threads.
-[[nodiscard]] LevelTables tables_of(const Facets& facets, const Lattice& lattice, int level, const Progress& progress);
+[[nodiscard]] LevelTables build_tables(const Facets& facets, const Lattice& lattice, int level,
+                                       const Progress& progress);
 
 /// The next coarser level: means over areas, as in a mip chain.
 [[nodiscard]] LevelTables coarser(const LevelTables& fine);

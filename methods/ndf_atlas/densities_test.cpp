@@ -67,7 +67,7 @@ double largest_error(const Facets& facets, const Lattice& lattice, const LevelTa
 TEST(Densities, AreTheSumsOverTexelsAtEveryLevel) {
   const Facets facets = random_facets(16, 8, 5);
   const Lattice lattice = lattice_over(facets, 0.73);
-  LevelTables level = tables_of(facets, lattice, 1, no_progress);
+  LevelTables level = build_tables(facets, lattice, 1, no_progress);
   const double peak = (exponent + 1.0) / (2.0 * pi);
   for (int edge = 2; edge <= 16; edge *= 2) {
     EXPECT_LT(largest_error(facets, lattice, level, edge), 2e-3 * peak) << edge << ": what a lobe's reach leaves out";
@@ -81,10 +81,10 @@ TEST(Densities, AreTheSumsOverTexelsAtEveryLevel) {
 TEST(Densities, AreTheSameByAnyRoadToALevel) {
   const Facets facets = random_facets(13, 7, 8);
   const Lattice lattice = lattice_over(facets, 0.73);
-  LevelTables stepped = tables_of(facets, lattice, 1, no_progress);
+  LevelTables stepped = build_tables(facets, lattice, 1, no_progress);
   for (int level = 2; level < 4; ++level) {
     stepped = coarser(stepped);
-    const LevelTables straight = tables_of(facets, lattice, level, no_progress);
+    const LevelTables straight = build_tables(facets, lattice, level, no_progress);
     ASSERT_EQ(stepped.density.size(), straight.density.size());
     for (std::size_t i = 0; i < straight.coverage.size(); ++i)
       EXPECT_NEAR(stepped.coverage[i], straight.coverage[i], 1e-6);
@@ -97,9 +97,9 @@ TEST(Densities, AreTheSameByAnyRoadToALevel) {
 TEST(Densities, AreTheSameWithOneThread) {
   const Facets facets = random_facets(32, 32, 2);
   const Lattice lattice = lattice_over(facets, 0.73);
-  const LevelTables tables = tables_of(facets, lattice, 2, no_progress);
+  const LevelTables tables = build_tables(facets, lattice, 2, no_progress);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(tables_of(facets, lattice, 2, no_progress).density, tables.density);
+  EXPECT_EQ(build_tables(facets, lattice, 2, no_progress).density, tables.density);
   EXPECT_EQ(coarser(tables).density, coarser(tables).density);
 }
 
@@ -130,7 +130,7 @@ double bilinear_error(const Facets& facets, const Lattice& lattice, std::span<co
 TEST(Densities, AreCloserWithSecondDifferences) {
   const Facets facets = random_facets(4, 4, 9);
   const Lattice lattice = lattice_over(facets, 0.73);
-  const LevelTables tables = tables_of(facets, lattice, 2, no_progress);
+  const LevelTables tables = build_tables(facets, lattice, 2, no_progress);
   std::vector<float> corrected(tables.table(0).begin(), tables.table(0).end());
   correct_for_bilinear(corrected, lattice);
   const double error = bilinear_error(facets, lattice, corrected);

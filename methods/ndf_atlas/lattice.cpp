@@ -74,7 +74,7 @@ std::vector<glm::vec2> stretches_of(const Material& material, int width, int hei
 
 }  // namespace
 
-std::optional<Facets> facets_of(const Material& material, bool rough) {
+std::optional<Facets> collect_facets(const Material& material, bool rough) {
   const Image normals = normal_map_of(material);
   Facets facets{.width = normals.width,
                 .height = normals.height,

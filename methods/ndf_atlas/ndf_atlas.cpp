@@ -72,7 +72,7 @@ int affordable_level(const Facets& facets, const Lattice& lattice, const Setting
 Plan plan_tables(const Material& material, const Settings& settings, const EffectSet& effects,
                  std::vector<std::string>& notes) {
   Plan plan;
-  plan.facets = facets_of(material, has(effects, Effect::roughness_variation));
+  plan.facets = collect_facets(material, has(effects, Effect::roughness_variation));
   if (!plan.facets) {
     notes.emplace_back("the roughness map does not lie on the normal map's texels: lobes at all levels, no tables");
     return plan;
@@ -99,7 +99,7 @@ void add_tables(Plan plan, const Material& material, Storage storage, const Prog
   const TextureCoordinates coordinates = normal_coordinates(material);
   const bool tabulated = plan.facets.has_value();
   LevelTables finest{.width = 1, .height = 1, .nodes = 4, .density = std::vector<float>(4), .coverage = {0.0F}};
-  if (tabulated) finest = tables_of(*plan.facets, plan.lattice, plan.layout.first_level, progress);
+  if (tabulated) finest = build_tables(*plan.facets, plan.lattice, plan.layout.first_level, progress);
   append(out.textures, atlas_textures(std::move(finest), plan.lattice, plan.layout, storage, coordinates.wrap));
   out.scalars["ndf_atlas_level"] = tabulated ? static_cast<float>(plan.layout.first_level) : 1e3F;
   out.scalars["ndf_atlas_column_bits"] = std::log2(static_cast<float>(plan.layout.columns));

@@ -88,8 +88,8 @@ Image square_of(const Image& map, int x, int y, int edge) {
 class TableTwin {
  public:
   explicit TableTwin(const Material& material)
-      : facets_(*ndf_atlas::facets_of(material, false)), lattice_(ndf_atlas::lattice_over(facets_, 0.73)) {
-    ndf_atlas::LevelTables level = ndf_atlas::tables_of(facets_, lattice_, 1, no_progress);
+      : facets_(*ndf_atlas::collect_facets(material, false)), lattice_(ndf_atlas::lattice_over(facets_, 0.73)) {
+    ndf_atlas::LevelTables level = ndf_atlas::build_tables(facets_, lattice_, 1, no_progress);
     while (level.coverage.size() > 1) level = ndf_atlas::coarser(level);
     table_ = level.density;
     ndf_atlas::correct_for_bilinear(table_, lattice_);

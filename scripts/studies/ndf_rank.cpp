@@ -52,7 +52,7 @@ Material cut(Material material, int edge) {
 
 // Directions above the surface, of equal solid angles, about all normals and what their lobes reach.
 std::vector<glm::vec3> directions_of(const Material& material) {
-  const ndf_atlas::Lattice lattice = ndf_atlas::lattice_over(*ndf_atlas::facets_of(material, false), step);
+  const ndf_atlas::Lattice lattice = ndf_atlas::lattice_over(*ndf_atlas::collect_facets(material, false), step);
   std::vector<glm::vec3> directions;
   for (int j = 0; j < lattice.nodes.y; ++j) {
     for (int i = 0; i < lattice.nodes.x; ++i) {

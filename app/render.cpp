@@ -46,7 +46,7 @@ Image render_picture(const Stage& stage, double distance, const ReferenceSetting
                      const Progress& progress) {
   const View view = stage.view(distance);
   Image picture = stage.methods().empty() ? stage.reference().render(view, reference.spp, reference.seed, progress).mean
-                                          : image_of(stage.methods().front(), view);
+                                          : render_image(stage.methods().front(), view);
   stage.context().check("rendering");
   return picture;
 }

@@ -140,7 +140,7 @@ std::vector<std::uint32_t> set_pixels(const Image& mask) {
   return pixels;
 }
 
-DistanceResult result_of(const Reference& reference, const MeasuredView& measured, const Exposure& exposure) {
+DistanceResult make_result(const Reference& reference, const MeasuredView& measured, const Exposure& exposure) {
   return {.distance = reference.place.at.distance,
           .exposure = exposure,
           .work = {reference.wanted_noise, relative_standard_error(reference.reference), reference.samples,
@@ -240,7 +240,7 @@ class ViewSequence {
         measure_view(tools.stage, tools.methods, reference, of_methods, parts.next(weights_.methods, ""));
     write_view(folder_, settings_.methods, reference, exposure.factor, view);
     if (before_) add_flicker(view.records, *before_, view.images, reference, exposure.factor);
-    DistanceResult result = result_of(reference, view, exposure);
+    DistanceResult result = make_result(reference, view, exposure);
     if (place.kind != RunKind::animation)
       result.pairs = write_pairs(folder_, settings_.methods, view, reference, exposure.factor);
     if (place.kind != RunKind::comparison)
@@ -341,7 +341,7 @@ ReferenceInfo reference_info(const ReferenceSettings& reference, const EffectSet
   return info;
 }
 
-ComparisonHead head_of(const Tools& tools, const RunSettings& settings) {
+ComparisonHead make_head(const Tools& tools, const RunSettings& settings) {
   const Stage& stage = tools.stage;
   ComparisonHead head{.results = {},
                       .frames = static_cast<std::size_t>(settings.view.zoom.frames),
@@ -362,7 +362,7 @@ ComparisonHead head_of(const Tools& tools, const RunSettings& settings) {
 }
 
 ComparisonHead kept_head(const KeptParts& kept, Workbench& bench, const RunSettings& settings) {
-  return kept.kept("head", [&] { return head_of(bench.tools(), settings); });
+  return kept.kept("head", [&] { return make_head(bench.tools(), settings); });
 }
 
 }  // namespace
@@ -391,14 +391,14 @@ Results run_compare(const RunSettings& settings, const RunFolder& folder, const 
     if (view.kind == RunKind::animation) continue;
     write_error_images(folder, done.back(), error_scale(done.back().largest_error, settings.view.error_scale));
     if (context.so_far && view.index + 1 < view.count)
-      context.so_far(results_of(kept_head(kept, bench, settings), done));
+      context.so_far(assemble_results(kept_head(kept, bench, settings), done));
   }
-  const Results own_scales = results_of(kept_head(kept, bench, settings), done);
+  const Results own_scales = assemble_results(kept_head(kept, bench, settings), done);
   for (std::size_t i = 0; i < own_scales.error_scales.size(); ++i) {
     if (own_scales.error_scales[i].error != own_scales.error_scale)
       write_shared_error_images(folder, done[i], own_scales.error_scale);
   }
-  return results_of(kept_head(kept, bench, settings), done);
+  return assemble_results(kept_head(kept, bench, settings), done);
 }
 
 std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views, const RunFolder& folder,

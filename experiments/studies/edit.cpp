@@ -64,7 +64,7 @@ bool is_measured(const ParameterSweep& sweep) {
 bool is_word(const OptionSpec& spec) { return !spec.choices.empty(); }
 
 template <class Work>
-double seconds_of(const Work& work) {
+double time_work(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -206,10 +206,10 @@ class Editor {
         .frame = frame, .parameters = values_at(settings_.sweeps, edited_, frame, settings_.frames), .bytes = 0};
     progress("geometry", 0.0);
     if (edited_ != brdf_kind)
-      record.stages.push_back({"geometry", seconds_of([&] { change_geometry(record.parameters); })});
+      record.stages.push_back({"geometry", time_work([&] { change_geometry(record.parameters); })});
     const auto brdf = values_at(settings_.sweeps, brdf_kind, frame, settings_.frames);
     if (!brdf.empty())
-      record.stages.push_back({"BRDF", seconds_of([&] { set_brdf(brdf, tables_ ? &*tables_ : nullptr, scene_); })});
+      record.stages.push_back({"BRDF", time_work([&] { set_brdf(brdf, tables_ ? &*tables_ : nullptr, scene_); })});
     record.parameters.insert(brdf.begin(), brdf.end());
     const EffectSet effects = effects_on(derive_effects(scene_));
     if (!drawing_) scene_ = refined_for_visibility(std::move(scene_), effects);
@@ -265,8 +265,8 @@ class Editor {
       drawing_->frames.draw(view);
       gl::api().Finish();
     }
-    stages.push_back({"upload", seconds_of([&] { drawing_->exchange(scene_, std::move(baked)); })});
-    stages.push_back({"frame", seconds_of([&] {
+    stages.push_back({"upload", time_work([&] { drawing_->exchange(scene_, std::move(baked)); })});
+    stages.push_back({"frame", time_work([&] {
                         drawing_->frames.draw(view);
                         gl::api().Finish();
                       })});

@@ -217,7 +217,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
     hash.add(method.text);
     if (method.file) hash.add(method.file->file_content);
   }
-  if (!settings.bakes.empty()) hash.add(content_of_given_bakes(settings.bakes));
+  if (!settings.bakes.empty()) hash.add(hash_given_bakes(settings.bakes));
   add(hash, settings.gpus);
   add_view(hash, settings, scene);
   add(hash, settings.reference);
@@ -230,7 +230,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
 
 std::string frame_name(std::size_t index) { return fmt::format("frame_{:04}", index); }
 
-Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>& views) {
+Results assemble_results(const ComparisonHead& head, const std::vector<DistanceResult>& views) {
   Results results = head.results;
   const Exposure& exposure = views.front().exposure;
   results.scene.exposure = exposure.factor;
@@ -265,7 +265,7 @@ Results joined_animation(const FinishedWork& finished, const std::string& run, c
     if (!frame) throw damaged(fmt::format("frame {} of {}", i + 1, head->frames));
     frames.push_back(std::move(*frame));
   }
-  return results_of(*head, frames);
+  return assemble_results(*head, frames);
 }
 
 }  // namespace footprint

@@ -201,7 +201,7 @@ inline constexpr bool is_private_document<ComparisonHead> = true;
 [[nodiscard]] std::string frame_name(std::size_t index);
 
 /// The results of one view or more. They lack tool and backend.cpu.
-[[nodiscard]] Results results_of(const ComparisonHead& head, const std::vector<DistanceResult>& views);
+[[nodiscard]] Results assemble_results(const ComparisonHead& head, const std::vector<DistanceResult>& views);
 
 /// The results of an animation whose frames are all finished; its images go to FOLDER/images. They lack tool and
 /// backend.cpu.

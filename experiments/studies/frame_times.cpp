@@ -105,8 +105,8 @@ std::map<int, double> measured_ms(const Stage& stage, const View& view, std::spa
 int most_frames(std::span<const int> counts) { return counts.empty() ? 0 : std::ranges::max(counts); }
 
 // The means of the first so many frames, for each count: one pass over the longest.
-std::map<int, Image> pictures_of(const Stage& stage, const View& view, std::span<const int> counts,
-                                 std::span<const glm::dvec2> offsets, const Progress& progress) {
+std::map<int, Image> render_pictures(const Stage& stage, const View& view, std::span<const int> counts,
+                                     std::span<const glm::dvec2> offsets, const Progress& progress) {
   const FrameRenderer& direct = stage.methods()[stage.unit()].frames();
   std::map<int, Image> pictures;
   FrameMean mean(view.size);
@@ -187,7 +187,7 @@ void set_times(std::span<Record> records, const Stage& stage, std::span<const Di
   }
 }
 
-Image image_of(const StagedMethod& method, const View& view) {
+Image render_image(const StagedMethod& method, const View& view) {
   if (method.history().frames == 0) return method.frames().render(view);
   std::optional<History> history;
   restart(history, method, view);
@@ -205,7 +205,7 @@ void MethodFrames::add_view(Sequence& sequence, const StagedMethod& method, View
 
 Image MethodFrames::render(std::size_t method, const PlannedView& place, const View& view) {
   const StagedMethod& staged = stage_.methods()[method];
-  if (place.kind == RunKind::comparison || staged.history().frames == 0) return image_of(staged, view);
+  if (place.kind == RunKind::comparison || staged.history().frames == 0) return render_image(staged, view);
   const std::size_t index = place.index;
   Sequence& sequence = sequences_[method];
   if (sequence.views > index) sequence.views = 0;
@@ -254,7 +254,7 @@ std::vector<SupersamplingPoint> measured_curve(const Stage& stage, const Referen
   ProgressParts parts(progress, curve_weight(counts));
   const std::vector<glm::dvec2> offsets = frame_offsets(most_frames(counts), settings.seed ^ curve_seed);
   const std::map<int, Image> pictures =
-      pictures_of(stage, view, counts, offsets, parts.next(most_frames(counts), "supersampling, "));
+      render_pictures(stage, view, counts, offsets, parts.next(most_frames(counts), "supersampling, "));
   const std::map<int, double> ms = measured_ms(stage, view, counts, offsets, parts.next(timing_weight(counts), ""));
   std::vector<SupersamplingPoint> curve;
   for (const int spp : counts) {

@@ -70,7 +70,7 @@ class MethodFrames {
 };
 
 /// A frame of a method in a view, or what a history of that view alone shows.
-[[nodiscard]] Image image_of(const StagedMethod& method, const View& view);
+[[nodiscard]] Image render_image(const StagedMethod& method, const View& view);
 
 /// The positions of the samples, from the pixel's centre, in pixels, -0.5 to 0.5: the first `count` points of a (0, 2)-
 /// sequence (Sobol's, scrambled by the seed), so that more samples begin with those of fewer, and every power of two of

@@ -70,7 +70,7 @@ void require_given_bakes(std::span<const std::filesystem::path> folders, std::sp
   }
 }
 
-std::string content_of_given_bakes(std::span<const std::filesystem::path> folders) {
+std::string hash_given_bakes(std::span<const std::filesystem::path> folders) {
   std::string content;
   for (const std::filesystem::path& path : folders) content += BakeFolder(path).content();
   return content;

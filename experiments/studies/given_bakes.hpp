@@ -26,6 +26,6 @@ void require_given_bakes(std::span<const std::filesystem::path> folders, std::sp
                          const Scene& scene, const EffectSet& effects);
 
 /// A hash of all maps that are given; empty without any. Throws Error (usage): as BakeFolder::content.
-[[nodiscard]] std::string content_of_given_bakes(std::span<const std::filesystem::path> folders);
+[[nodiscard]] std::string hash_given_bakes(std::span<const std::filesystem::path> folders);
 
 }  // namespace footprint

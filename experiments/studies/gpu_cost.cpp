@@ -266,8 +266,8 @@ CostReport estimate_costs(const RunSettings& settings, const GpuCompiler& compil
     const Progress own = methods.next(1, "");
     std::optional<Error> failure = method.refusal();
     if (!failure)
-      failure = failure_of(stage.context(), settings.methods[m],
-                           [&] { report.methods.push_back(gpus.costs(method, view, own)); });
+      failure = catch_failure(stage.context(), settings.methods[m],
+                              [&] { report.methods.push_back(gpus.costs(method, view, own)); });
     if (failure) report.methods.push_back(failed_costs(settings.methods[m], settings.gpus, *failure));
   }
   return report;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t most_methods_in_pairs = 24;
 
 // bound: of the footprint filter; null where there is none, as of a history.
-ErrorCauses causes_of(const Reference& target, const BoundPicture* bound, const Image& picture, float exposure) {
+ErrorCauses separate_causes(const Reference& target, const BoundPicture* bound, const Image& picture, float exposure) {
   ErrorCauses causes = error_causes(picture, target.reference.mean, bound, target.parts, exposure);
   causes.shading_floor = target.shading_floor;
   if (target.reference.halves)
@@ -54,7 +54,7 @@ void set_error(Record& record, const Reference& target, const Image& frame, cons
   if (!figures) return;
   const BoundPicture* const bound = target.bound && !record.history ? &*target.bound : nullptr;
   record.error = RecordError{*figures, target.noise_floor};
-  record.error->causes = causes_of(target, bound, frame, exposure);
+  record.error->causes = separate_causes(target, bound, frame, exposure);
   if (finest) {
     record.error->representation = normalized_color(*finest, target.reference.mean, exposure);
     record.error->filtering = normalized_color(frame, *finest, exposure);
@@ -171,8 +171,8 @@ std::pair<Image, Record> measure_or_fail(const Stage& stage, MethodTools& tools,
   std::pair<Image, Record> result;
   std::optional<Error> failure = method.refusal();
   if (!failure)
-    failure = failure_of(stage.context(), method.spec(),
-                         [&] { result = measure_method(stage, tools, index, target, wanted, progress); });
+    failure = catch_failure(stage.context(), method.spec(),
+                            [&] { result = measure_method(stage, tools, index, target, wanted, progress); });
   if (!failure) return result;
   if (target.place.kind == RunKind::animation) throw *failure;
   Record record = described(stage, method, target);
@@ -220,8 +220,8 @@ std::vector<Image> render_methods(const Stage& stage, MethodTools& tools, const 
     const StagedMethod& method = stage.methods()[m];
     if (method.refusal()) continue;
     // A failure shows again where the method is measured.
-    (void)failure_of(stage.context(), method.spec(),
-                     [&] { image = tools.frames.render(m, reference.place, reference.view); });
+    (void)catch_failure(stage.context(), method.spec(),
+                        [&] { image = tools.frames.render(m, reference.place, reference.view); });
   }
   return images;
 }

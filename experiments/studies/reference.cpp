@@ -72,8 +72,8 @@ double noise_that_separates(const Stage& stage, const Supersampled& reference, c
       if (const auto error = normalized_color(method.frames().render(view), counted.mean, exposure))
         errors.push_back(*error);
     };
-    (void)failure_of(stage.context(), method.baked().spec,
-                     add);  // it shows again, and is reported, where the method is measured
+    (void)catch_failure(stage.context(), method.baked().spec,
+                        add);  // it shows again, and is reported, where the method is measured
   }
   if (errors.empty()) return least_noise;
   std::ranges::sort(errors);
@@ -142,9 +142,9 @@ void leave_out_unresolved(Reference& target, float exposure) {
 }
 
 // Returns the interior pixels; finds them unless they are known.
-const Interior& interior_of(const Stage& stage, const ReferenceTools& tools, const Reference& target,
-                            const ReferenceSettings& settings, std::optional<Interior>& known,
-                            const Progress& progress) {
+const Interior& find_interior(const Stage& stage, const ReferenceTools& tools, const Reference& target,
+                              const ReferenceSettings& settings, std::optional<Interior>& known,
+                              const Progress& progress) {
   if (known) return *known;
   known = tools.interior.render(target.view, object_part(target.reference.mean), settings.spp, settings.seed, progress);
   stage.context().check("finding interior pixels");
@@ -258,7 +258,7 @@ Reference render_reference(Stage& stage, const ReferenceTools& tools, const Plan
   static_cast<RenderedReference&>(target) = known;
   leave_out_unresolved(target, wanted.exposure);
   const Interior& interior =
-      interior_of(stage, tools, target, settings, known.interior, parts.next(interior_weight, prefix));
+      find_interior(stage, tools, target, settings, known.interior, parts.next(interior_weight, prefix));
   set_parts(target, stage, interior, wanted);
   const Progress of_bound = parts.next(interior_weight, prefix);
   if (tools.bound) set_bound(target, stage, *tools.bound, settings.bound, interior.texels, of_bound);

@@ -69,8 +69,8 @@ BakedMethod bake_by_cache(const std::optional<std::filesystem::path>& cache, con
   return bake(find_method(spec), spec, scene, effects, progress, files ? &*files : nullptr);
 }
 
-std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
-                                const std::function<void()>& action) {
+std::optional<Error> catch_failure(const gl::Context& context, const MethodSpec& method,
+                                   const std::function<void()>& action) {
   const std::string place = "method " + method.text;
   std::optional<Error> failure;
   try {
@@ -155,7 +155,7 @@ Stage::Stage(std::shared_ptr<PreparedScene> scene, const RunSettings& settings, 
   }
   for (const StagedFrames& method : wanted) {
     const auto failure =
-        failure_of(shared.context, method.spec, [&] { methods_.push_back(staged(method, parts.next(1, "bake "))); });
+        catch_failure(shared.context, method.spec, [&] { methods_.push_back(staged(method, parts.next(1, "bake "))); });
     if (!failure) continue;
     if (methods_.size() >= settings.methods.size() || !options.records_refusals) throw *failure;
     methods_.emplace_back(method.spec, *failure);

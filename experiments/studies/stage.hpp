@@ -40,8 +40,8 @@ struct StageOptions {
 
 /// The error of `action`, with its place within the method; none where it succeeds. GL errors that it leaves are
 /// cleared. Errors: an interrupt, or a lost context, after which nothing else draws.
-[[nodiscard]] std::optional<Error> failure_of(const gl::Context& context, const MethodSpec& method,
-                                              const std::function<void()>& action);
+[[nodiscard]] std::optional<Error> catch_failure(const gl::Context& context, const MethodSpec& method,
+                                                 const std::function<void()>& action);
 
 /// The folders that slow work may be read from instead of being done.
 struct WorkFolders {

@@ -131,15 +131,16 @@ TEST(Stage, FailuresOfAMethodAreNamedAndInterruptsPass) {
   Image reference(1, 1, 4), picture(1, 1, 4);
   reference.texels = {1, 1, 1, 1};
   picture.texels = {1, nan, 1, 1};
-  const auto failure = failure_of(context, spec, [&] { (void)normalized_color(picture, reference, 1.0F); });
+  const auto failure = catch_failure(context, spec, [&] { (void)normalized_color(picture, reference, 1.0F); });
   ASSERT_TRUE(failure.has_value());
   EXPECT_THAT(failure->what(), ::testing::HasSubstr("method toksvig:storage=fp16"));
   EXPECT_THAT(failure->what(), ::testing::HasSubstr("pixel (0, 0): the value is not a finite number"));
-  const auto memory = failure_of(context, spec, [] { throw std::bad_alloc(); });
+  const auto memory = catch_failure(context, spec, [] { throw std::bad_alloc(); });
   ASSERT_TRUE(memory.has_value());
   EXPECT_THAT(memory->what(), ::testing::HasSubstr("method toksvig:storage=fp16: out of memory"));
-  EXPECT_FALSE(failure_of(context, spec, [] {}).has_value());
-  EXPECT_THROW((void)failure_of(context, spec, [] { throw Error(ErrorKind::interrupted, "", "interrupted"); }), Error);
+  EXPECT_FALSE(catch_failure(context, spec, [] {}).has_value());
+  EXPECT_THROW((void)catch_failure(context, spec, [] { throw Error(ErrorKind::interrupted, "", "interrupted"); }),
+               Error);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ void collect(const nlohmann::json& value, std::vector<std::filesystem::path>& fi
 }
 
 // Null where it cannot be read.
-nlohmann::json document_of(const std::filesystem::path& file) {
+nlohmann::json read_document(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return nlohmann::json::parse(stream, nullptr, false);
 }
@@ -183,7 +183,7 @@ Results with_losses(Results results, const RunFolder& folder) {
 }
 
 // The page of runs: its scripts make views of their records.
-std::string page_of(Page page, Json runs) {
+std::string make_runs_page(Page page, Json runs) {
   page.eyebrow = "error, cost and memory of normal map filtering";
   return page_html(page, Json{{"runs", std::move(runs)}, {"columns", columns_json()}});
 }
@@ -220,7 +220,7 @@ std::vector<std::string> files_below(const std::filesystem::path& folder, const 
 }
 
 std::vector<std::filesystem::path> listed_files(const std::filesystem::path& results_json) {
-  const nlohmann::json document = document_of(results_json);
+  const nlohmann::json document = read_document(results_json);
   std::vector<std::filesystem::path> files;
   if (text_in(document, "schema").starts_with("footprint-")) collect(document, files);
   return files;
@@ -228,7 +228,7 @@ std::vector<std::filesystem::path> listed_files(const std::filesystem::path& res
 
 std::optional<ListedReference> listed_reference(const std::filesystem::path& reference) {
   const std::filesystem::path folder = std::filesystem::absolute(reference).parent_path().parent_path();
-  const nlohmann::json document = document_of(folder / "results.json");
+  const nlohmann::json document = read_document(folder / "results.json");
   if (text_in(document, "schema") != results_schema) return {};
   const std::string name = pictures + reference.filename().string();
   const nlohmann::json exposure = document.value(nlohmann::json::json_pointer("/scene/exposure"), nlohmann::json());
@@ -263,22 +263,22 @@ void write_matrix_report(const MatrixResults& matrix, const RunFolder& folder) {
 std::string results_page(const Results& results) {
   Json runs = Json::array();
   runs.push_back(run_json(results, ""));
-  return page_of({.title = results.scene.name,
-                  .text = results_table(results),
-                  .exposure = results.scene.exposure,
-                  .experiment = results.experiment ? experiment_html(*results.experiment) : "",
-                  .gpus = gpu_costs_html(results)},
-                 std::move(runs));
+  return make_runs_page({.title = results.scene.name,
+                         .text = results_table(results),
+                         .exposure = results.scene.exposure,
+                         .experiment = results.experiment ? experiment_html(*results.experiment) : "",
+                         .gpus = gpu_costs_html(results)},
+                        std::move(runs));
 }
 
 std::string matrix_page(const MatrixResults& matrix, const std::string& lede) {
   Json runs = Json::array();
   for (const auto& [folder, results] : matrix.members) runs.push_back(run_json(results, folder));
-  return page_of({.title = matrix.report.title,
-                  .lede = lede,
-                  .text = matrix_table(matrix),
-                  .experiment = experiment_html(matrix.report)},
-                 std::move(runs));
+  return make_runs_page({.title = matrix.report.title,
+                         .lede = lede,
+                         .text = matrix_table(matrix),
+                         .experiment = experiment_html(matrix.report)},
+                        std::move(runs));
 }
 
 }  // namespace footprint

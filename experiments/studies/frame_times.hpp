@@ -69,7 +69,7 @@ class MethodFrames {
   std::vector<Sequence> sequences_;  // of each method
 };
 
-/// A frame of a method in a view, or what a history of that view alone shows.
+/// Renders a frame of a method in a view, or what a history of that view alone shows.
 [[nodiscard]] Image render_image(const StagedMethod& method, const View& view);
 
 /// The positions of the samples, from the pixel's centre, in pixels, -0.5 to 0.5: the first `count` points of a (0, 2)-

@@ -38,8 +38,8 @@ struct StageOptions {
   bool records_refusals = false;
 };
 
-/// The error of `action`, with its place within the method; none where it succeeds. GL errors that it leaves are
-/// cleared. Errors: an interrupt, or a lost context, after which nothing else draws.
+/// Runs `action`. Returns its error, with its place within the method; none where it succeeds. GL errors that it leaves
+/// are cleared. Errors: an interrupt, or a lost context, after which nothing else draws.
 [[nodiscard]] std::optional<Error> catch_failure(const gl::Context& context, const MethodSpec& method,
                                                  const std::function<void()>& action);
 

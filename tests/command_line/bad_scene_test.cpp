@@ -70,11 +70,11 @@ const std::vector<Case> wrong_names{
     {.name = "WrongSceneName",
      .arguments = {"render", "ribbed_plan", "--method", "direct", "-o", "{}/a.exr"},
      .exit_code = 2,
-     .errors_have = {"ribbed_plan", "did you mean `ribbed_plane`?"}},
+     .errors_have = {"ribbed_plan", "`ribbed_plane`"}},
     {.name = "TwoMethodsForOnePicture",
      .arguments = {"render", "ribbed_plane", "--method", "direct,toksvig", "-o", "{}/a.exr"},
      .exit_code = 2,
-     .errors_have = {"--method", "more than one"}},
+     .errors_have = {"--method"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(BadScene, CommandLine, ::testing::ValuesIn(of_compare_and_render(scenes())), case_name);

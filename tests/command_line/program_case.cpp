@@ -4,11 +4,16 @@
 #include "tests/command_line/program_case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <ostream>
+#include <string_view>
+#include <utility>
 
 #include "app/commands.hpp"
+#include "tests/command_line/golden_messages.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace footprint::test {
 namespace {
@@ -63,6 +68,16 @@ std::string CommandLine::in_place(std::string text) const {
   return text;
 }
 
+std::string CommandLine::out_of_place(std::string text) const {
+  const std::array<std::pair<std::string, std::string_view>, 3> names{
+      {{work().string(), "{}"}, {folder_.string(), "{}/.."}, {testing::source_folder().string(), "{source}"}}};
+  for (const auto& [own, name] : names) {
+    for (std::size_t at = text.find(own); at != std::string::npos; at = text.find(own, at + name.size()))
+      text.replace(at, own.size(), name);
+  }
+  return text;
+}
+
 ProcessResult CommandLine::run() const {
   const Case& row = GetParam();
   ProcessRequest request{.command = {FOOTPRINT_PROGRAM},
@@ -114,6 +129,7 @@ TEST_P(CommandLine, EndsAsItShould) {
   EXPECT_TRUE(line.starts_with("footprint: ")) << result.errors;
   EXPECT_LT(line.size(), 600U) << line;
   expect_parts(row.errors_have, line);
+  expect_golden_message(out_of_place(line));
   if (row.keeps_results) return;
   if (row.keeps_work) {
     EXPECT_TRUE(left.contains("out/kept")) << "no finished work";

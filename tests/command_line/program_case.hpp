@@ -23,7 +23,7 @@ struct Case {
   std::vector<std::string> arguments{};
   int exit_code = 0;
   std::vector<std::string> output_has{};       ///< texts on standard output
-  std::vector<std::string> errors_have{};      ///< texts in the error line on standard error
+  std::vector<std::string> errors_have{};      ///< its place in the error line, whose words are in messages.golden
   std::vector<std::string> says{};             ///< texts on either
   std::map<std::string, std::string> files{};  ///< input files: path in the case's folder, content
   std::map<std::string, std::string> environment{};
@@ -57,6 +57,8 @@ class CommandLine : public ::testing::TestWithParam<Case> {
   /// Everything below the case's folder but the input files and their folders.
   [[nodiscard]] std::set<std::string> left_behind() const;
   void expect_untouched_inputs() const;
+  /// A message without the paths of the case's folder and of the sources.
+  [[nodiscard]] std::string out_of_place(std::string text) const;
 
  private:
   [[nodiscard]] std::filesystem::path work() const { return folder_ / "work"; }

@@ -49,7 +49,8 @@ RunSettings settings_of(const AnimateArguments& arguments) {
   return settings;
 }
 
-void animate_part(const AnimateArguments& arguments, const RunSettings& settings) {
+void animate_part(const AnimateArguments& arguments) {
+  const RunSettings settings = settings_of(arguments);
   if (settings.output.video)
     throw Error(ErrorKind::usage, "--video", "a film cannot be made of a part",
                 "merge the parts, then run this without --shard over the merged folder: it reuses the frames");
@@ -132,8 +133,8 @@ std::string make_film(const fs::path& ffmpeg, const Results& animation, const fs
 }
 
 void run_animate(const AnimateArguments& arguments) {
+  if (!arguments.shard.empty()) return animate_part(arguments);
   const RunSettings settings = settings_of(arguments);
-  if (!arguments.shard.empty()) return animate_part(arguments, settings);
   const fs::path ffmpeg = settings.output.video ? find_ffmpeg() : fs::path();
   const FinishedWork finished = finished_work_in(arguments.output, settings.backend.context, settings.output.fresh);
   ProgressDisplay display(progress_style(arguments.quiet));

@@ -72,20 +72,15 @@ struct Variant {
   StagedMethod method;
 };
 
-Variant make_variant(const Stage& stage, const EffectSet& effects, const View& view, int tile,
-                     const WorkFolders& folders, const Progress& progress) {
-  const gl::ContextInfo& context = stage.context().info();
-  auto scene = std::make_unique<GpuScene>(context, stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
-  const StagedMethod& whole = stage.methods().front();
-  const StagedFrames wanted{.spec = whole.spec(), .filter = whole.filter()};
-  StagedMethod method(context, *scene, stage.scene(),
-                      prepared_method(*scene, stage.scene(), effects, wanted.spec, folders, no_progress), wanted,
-                      view.size, tile);
+Variant make_variant(const Stage& stage, const EffectSet& effects, const Progress& progress) {
+  auto scene =
+      std::make_unique<GpuScene>(stage.context().info(), stage.scene(), effects, progress, nullptr, &stage.gpu_scene());
+  StagedMethod method = stage.stage_with(effects, *scene);
   return {std::move(scene), std::move(method)};
 }
 
 // Renders the scene by the stage's first method with all effects and without each one, frames interleaved.
-Json measure_effect_costs(const Stage& stage, const RunSettings& run, const Progress& progress) {
+Json measure_effect_costs(const Stage& stage, int repeats, const Progress& progress) {
   const View view = stage.view(1.0);
   std::vector<Effect> measured;
   std::vector<Variant> variants;
@@ -97,12 +92,12 @@ Json measure_effect_costs(const Stage& stage, const RunSettings& run, const Prog
     const EffectSet remaining = EffectSet(stage.effects()).reset(static_cast<std::size_t>(effect));
     const Progress preparing = parts.next(1, "preparing: ");
     preparing(effect_name(effect), 0.0);
-    variants.push_back(make_variant(stage, remaining, view, run.backend.tile, work_folders(run), preparing));
+    variants.push_back(make_variant(stage, remaining, preparing));
   }
   std::vector<DrawFrame> frames{[&] { stage.methods().front().frames().draw(view); }};
   for (const Variant& variant : variants) frames.emplace_back([&] { variant.method.frames().draw(view); });
   const auto times = interleaved_times(
-      stage.context().info(), frames, run.timing.repeats,
+      stage.context().info(), frames, repeats,
       [&](std::string_view what, double done) { progress(what, 0.5 + 0.5 * done); }, are_known);
   stage.context().check("timing the effects");
 
@@ -177,7 +172,8 @@ Json explain(const ExplainArguments& arguments, const Progress& progress) {
   out["method_bytes"] = baked.bytes;
   out["textures"] = texture_uses(baked);
   if (!arguments.cost) return out;
-  for (const Json& cost : measure_effect_costs(stage, run, parts.next(2, ""))) out["cost"].push_back(cost);
+  for (const Json& cost : measure_effect_costs(stage, run.timing.repeats, parts.next(2, "")))
+    out["cost"].push_back(cost);
   return out;
 }
 

@@ -55,6 +55,39 @@ struct Tools {
   MethodTools methods;
 };
 
+// ---- the head of the results
+
+void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<std::string>& warnings) {
+  for (std::size_t m = 0; m < methods; ++m) {
+    const BakedMethod& baked = stage.methods()[m].baked();
+    for (std::size_t i = 0; i < baked.materials.size(); ++i) {
+      for (const std::string& note : baked.materials[i].notes)
+        warnings.push_back(
+            fmt::format("{}, material {}: {}", stage.methods()[m].text(), stage.scene().materials[i].name, note));
+    }
+  }
+}
+
+std::optional<AnimationInfo> animation_info(const PathSettings& path, const Scene& scene) {
+  if (!path.kind) return {};
+  AnimationInfo info{.path = std::string(word_for(animation_paths, *path.kind))};
+  if (path.kind != AnimationPath::orbit && path.kind != AnimationPath::light) return info;
+  const glm::dvec3 axis = turning_axis(path, scene);
+  info.axis = {axis.x, axis.y, axis.z};
+  return info;
+}
+
+ReferenceInfo reference_info(const ReferenceSettings& reference, const EffectSet& effects) {
+  ReferenceInfo info;
+  info.spp = reference.spp;
+  info.filter = word_for(reference_filters, reference.filter);
+  info.seed = reference.seed;
+  if (has(effects, Effect::environment_light)) info.environment = word_for(reference_integrals, reference.environment);
+  return info;
+}
+
+// ---- the run
+
 // The scene of a run and its views; with the first image what draws them, because a run whose views are all finished
 // needs no OpenGL.
 class Workbench {
@@ -78,6 +111,7 @@ class Workbench {
     return context_.shared != nullptr ? context_.shared->scene->scene : scene_;
   }
 
+  [[nodiscard]] const RunSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<PlannedView>& views() const { return views_; }
 
   Tools& tools() {
@@ -89,7 +123,44 @@ class Workbench {
     return *tools_;
   }
 
+  // The run's finished work, in `folder` once it is taken. To be asked for before the tools.
+  [[nodiscard]] KeptParts kept_parts(const RunFolder& folder) const {
+    if (context_.finished == nullptr) return {nullptr, "", folder};
+    SharedWork* const shared = context_.shared;
+    const std::string content = shared != nullptr ? shared->content : scene_content(scene());
+    std::vector<std::string> more;
+    if (shared != nullptr && !shared->first.empty()) more.push_back(shared->first);
+    std::string run = run_fingerprint(context_.finished->maker(), settings_, scene(), content, more);
+    if (shared != nullptr && shared->first.empty()) shared->first = run;
+    return {context_.finished, std::move(run), folder};
+  }
+
+  // The head of the results, from the finished work or from what draws.
+  [[nodiscard]] ComparisonHead head(const KeptParts& kept) {
+    return kept.kept("head", [&] { return make_head(); });
+  }
+
  private:
+  ComparisonHead make_head() {
+    const Stage& stage = tools().stage;
+    ComparisonHead head{.results = {},
+                        .frames = static_cast<std::size_t>(settings_.view.zoom.frames),
+                        .error_scale = settings_.view.error_scale};
+    head.results.backend = backend_info(stage.context().info());
+    head.results.scene = stage.info();
+    head.results.reference = reference_info(settings_.reference, stage.effects());
+    head.results.footprint = footprint_filter_text(footprint_filter_of(settings_.footprint, stage.scene()));
+    head.results.timing.frames = settings_.timing.repeats;
+    head.results.animation = animation_info(settings_.view.path, stage.scene());
+    std::ranges::copy(tools().reference.warnings, std::back_inserter(head.results.scene.warnings));
+    const EffectSet left_out = effects_on(stage.decisions()) & settings_.without;
+    if (left_out.any())
+      head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as requested: {}",
+                                               fmt::join(effect_names(left_out), ", ")));
+    add_precompute_notes(stage, settings_.methods.size(), head.last_warnings);
+    return head;
+  }
+
   const RunSettings& settings_;
   const CompareContext& context_;
   Progress progress_;  // of staging
@@ -100,18 +171,6 @@ class Workbench {
 };
 
 // ---- finished views
-
-KeptParts kept_parts(const RunSettings& settings, const Scene& scene, const RunFolder& folder,
-                     const CompareContext& context) {
-  if (context.finished == nullptr) return {nullptr, "", folder};
-  SharedWork* const shared = context.shared;
-  const std::string content = shared != nullptr ? shared->content : scene_content(scene);
-  std::vector<std::string> more;
-  if (shared != nullptr && !shared->first.empty()) more.push_back(shared->first);
-  std::string run = run_fingerprint(context.finished->maker(), settings, scene, content, more);
-  if (shared != nullptr && shared->first.empty()) shared->first = run;
-  return {context.finished, std::move(run), folder};
-}
 
 std::string part_name(const PlannedView& place) {
   return place.kind == RunKind::animation ? frame_name(place.index) : fmt::format("distance_{}", place.at.distance);
@@ -198,15 +257,15 @@ DistanceTimes time_view(Tools& tools, const PlannedView& place, int repeats, con
 // the flicker of the next.
 class ViewSequence {
  public:
-  ViewSequence(const RunSettings& settings, const CompareContext& context, Workbench& bench, const KeptParts& kept,
-               RunFolder folder, const Progress& progress)
-      : settings_(settings),
+  ViewSequence(const CompareContext& context, Workbench& bench, const KeptParts& kept, RunFolder folder,
+               const Progress& progress)
+      : settings_(bench.settings()),
         context_(context),
         bench_(bench),
         kept_(kept),
         folder_(std::move(folder)),
-        weights_(view_weights(settings.reference, settings.methods.size(), settings.timing.repeats)),
-        progress_(progress, static_cast<double>(bench.views().size()) * weights_.all() + settings.reference.spp),
+        weights_(view_weights(settings_.reference, settings_.methods.size(), settings_.timing.repeats)),
+        progress_(progress, static_cast<double>(bench.views().size()) * weights_.all() + settings_.reference.spp),
         references_(context.shared != nullptr ? context.shared->references : own_references_),
         times_(context.further_times) {}
 
@@ -310,61 +369,6 @@ class ViewSequence {
   std::optional<std::pair<std::size_t, DistanceResult>> last_{};  // the view before, with its index
 };
 
-// ---- the whole
-
-void add_precompute_notes(const Stage& stage, std::size_t methods, std::vector<std::string>& warnings) {
-  for (std::size_t m = 0; m < methods; ++m) {
-    const BakedMethod& baked = stage.methods()[m].baked();
-    for (std::size_t i = 0; i < baked.materials.size(); ++i) {
-      for (const std::string& note : baked.materials[i].notes)
-        warnings.push_back(
-            fmt::format("{}, material {}: {}", stage.methods()[m].text(), stage.scene().materials[i].name, note));
-    }
-  }
-}
-
-std::optional<AnimationInfo> animation_info(const PathSettings& path, const Scene& scene) {
-  if (!path.kind) return {};
-  AnimationInfo info{.path = std::string(word_for(animation_paths, *path.kind))};
-  if (path.kind != AnimationPath::orbit && path.kind != AnimationPath::light) return info;
-  const glm::dvec3 axis = turning_axis(path, scene);
-  info.axis = {axis.x, axis.y, axis.z};
-  return info;
-}
-
-ReferenceInfo reference_info(const ReferenceSettings& reference, const EffectSet& effects) {
-  ReferenceInfo info;
-  info.spp = reference.spp;
-  info.filter = word_for(reference_filters, reference.filter);
-  info.seed = reference.seed;
-  if (has(effects, Effect::environment_light)) info.environment = word_for(reference_integrals, reference.environment);
-  return info;
-}
-
-ComparisonHead make_head(const Tools& tools, const RunSettings& settings) {
-  const Stage& stage = tools.stage;
-  ComparisonHead head{.results = {},
-                      .frames = static_cast<std::size_t>(settings.view.zoom.frames),
-                      .error_scale = settings.view.error_scale};
-  head.results.backend = backend_info(stage.context().info());
-  head.results.scene = stage.info();
-  head.results.reference = reference_info(settings.reference, stage.effects());
-  head.results.footprint = footprint_filter_text(footprint_filter_of(settings.footprint, stage.scene()));
-  head.results.timing.frames = settings.timing.repeats;
-  head.results.animation = animation_info(settings.view.path, stage.scene());
-  std::ranges::copy(tools.reference.warnings, std::back_inserter(head.results.scene.warnings));
-  const EffectSet left_out = effects_on(stage.decisions()) & settings.without;
-  if (left_out.any())
-    head.last_warnings.push_back(fmt::format("left out of every image, the reference's too, as requested: {}",
-                                             fmt::join(effect_names(left_out), ", ")));
-  add_precompute_notes(stage, settings.methods.size(), head.last_warnings);
-  return head;
-}
-
-ComparisonHead kept_head(const KeptParts& kept, Workbench& bench, const RunSettings& settings) {
-  return kept.kept("head", [&] { return make_head(bench.tools(), settings); });
-}
-
 }  // namespace
 
 FrameTimes time_frames(const RunSettings& settings, const Progress& progress) {
@@ -382,34 +386,33 @@ Results run_compare(const RunSettings& settings, const RunFolder& folder, const 
                     const CompareContext& context) {
   ProgressParts parts(progress, 4);
   Workbench bench(settings, context, parts.next(1, ""));
-  const KeptParts kept = kept_parts(settings, bench.scene(), folder, context);
+  const KeptParts kept = bench.kept_parts(folder);
   std::filesystem::create_directories(folder / "images");
-  ViewSequence views(settings, context, bench, kept, folder, parts.next(3, ""));
+  ViewSequence views(context, bench, kept, folder, parts.next(3, ""));
   std::vector<DistanceResult> done;
   for (const PlannedView& view : bench.views()) {
     done.push_back(views.next(view));
     if (view.kind == RunKind::animation) continue;
     write_error_images(folder, done.back(), error_scale(done.back().largest_error, settings.view.error_scale));
-    if (context.so_far && view.index + 1 < view.count)
-      context.so_far(assemble_results(kept_head(kept, bench, settings), done));
+    if (context.so_far && view.index + 1 < view.count) context.so_far(assemble_results(bench.head(kept), done));
   }
-  const Results own_scales = assemble_results(kept_head(kept, bench, settings), done);
+  const Results own_scales = assemble_results(bench.head(kept), done);
   for (std::size_t i = 0; i < own_scales.error_scales.size(); ++i) {
     if (own_scales.error_scales[i].error != own_scales.error_scale)
       write_shared_error_images(folder, done[i], own_scales.error_scale);
   }
-  return assemble_results(kept_head(kept, bench, settings), done);
+  return assemble_results(bench.head(kept), done);
 }
 
 std::string measure_views(const RunSettings& settings, std::span<const std::size_t> views, const RunFolder& folder,
                           const Progress& progress, const CompareContext& context) {
   ProgressParts parts(progress, 4);
   Workbench bench(settings, context, parts.next(1, ""));
-  const KeptParts kept = kept_parts(settings, bench.scene(), folder, context);
+  const KeptParts kept = bench.kept_parts(folder);
   std::filesystem::create_directories(folder / "images");
-  ViewSequence measured(settings, context, bench, kept, folder, parts.next(3, ""));
+  ViewSequence measured(context, bench, kept, folder, parts.next(3, ""));
   for (const std::size_t i : views) (void)measured.next(bench.views()[i]);
-  (void)kept_head(kept, bench, settings);
+  (void)bench.head(kept);
   return kept.run();
 }
 

@@ -79,14 +79,14 @@ void add(ContentHash& hash, const auto& value) { hash.add(to_json_value(value).d
 
 // A distance does not depend on the others, except for the first, which decides an automatic exposure, and for the
 // frame before it in a zoom.
-void add_view(ContentHash& hash, const RunSettings& settings, const Scene& scene) {
-  const auto& [size, quick_size, distances, zoom, path, exposure, error_scale] = settings.view;
+void add_view(ContentHash& hash, const ViewSettings& view, double first_time, const Scene& scene) {
+  const auto& [size, quick_size, distances, zoom, path, exposure, error_scale] = view;
   const auto& [kind, degrees, axis, until] = path;
   const glm::ivec2 pixels = frame_size(scene, size);
   const glm::dvec3 turned = axis.value_or(glm::dvec3(0.0));
-  const std::vector<PlannedView> all = plan_views(settings.view, settings.overrides.model.time.value_or(0.0), scene);
-  const bool depends_on_path = kind_of(settings.view) != RunKind::comparison;
-  for (const PlannedView& view : std::span(all).first(depends_on_path ? all.size() : 1)) add(hash, view.at);
+  const std::vector<PlannedView> all = plan_views(view, first_time, scene);
+  const bool depends_on_path = kind_of(view) != RunKind::comparison;
+  for (const PlannedView& place : std::span(all).first(depends_on_path ? all.size() : 1)) add(hash, place.at);
   add(hash, std::tuple(pixels.x, pixels.y, exposure, zoom.frames, error_scale));
   add(hash, std::tuple(kind, degrees, until, turned.x, turned.y, turned.z));
 }
@@ -219,7 +219,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
   }
   if (!settings.bakes.empty()) hash.add(hash_given_bakes(settings.bakes));
   add(hash, settings.gpus);
-  add_view(hash, settings, scene);
+  add_view(hash, settings.view, settings.overrides.model.time.value_or(0.0), scene);
   add(hash, settings.reference);
   if (settings.history.frames > 0) add(hash, settings.history);
   const auto& [repeats, processes, unit] = settings.timing;

@@ -191,8 +191,7 @@ std::vector<StagedFrames> Stage::wanted_methods(bool has_unit) {
 
 StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress) const {
   std::shared_ptr<const PreparedMethod>& known = prepared_->methods[text_of_maps(method.spec)];
-  if (!known)
-    known = prepared_method(*prepared_->gpu, scene(), effects(), method.spec, work_folders(settings_), progress);
+  if (!known) known = prepared_method(*prepared_->gpu, scene(), effects(), method.spec, work_folders(), progress);
   return {context().info(), *prepared_->gpu, scene(), known, method, size_, settings_.backend.tile};
 }
 
@@ -238,6 +237,17 @@ View Stage::move_to(const RunView& view) {
           .camera = camera_on_path(settings_.view.path, scene(), view),
           .seed = settings_.reference.seed,
           .frame = view.frame};
+}
+
+StagedMethod Stage::stage_with(const EffectSet& effects, GpuScene& gpu_scene) const {
+  const StagedFrames wanted{.spec = methods_.front().spec(), .filter = methods_.front().filter()};
+  return {context().info(),
+          gpu_scene,
+          scene(),
+          prepared_method(gpu_scene, scene(), effects, wanted.spec, work_folders(), no_progress),
+          wanted,
+          size_,
+          settings_.backend.tile};
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {

@@ -48,7 +48,6 @@ struct WorkFolders {
   std::vector<std::filesystem::path> bakes{};    ///< of `footprint bake`
   std::optional<std::filesystem::path> cache{};  ///< none: nothing is cached
 };
-[[nodiscard]] inline WorkFolders work_folders(const RunSettings& run) { return {run.bakes, run.cache}; }
 
 /// The cache in a folder; none without one.
 [[nodiscard]] std::optional<DiskCache> cache_in(const std::optional<std::filesystem::path>& folder);
@@ -159,6 +158,10 @@ class Stage {
   /// camera of that view. Errors: as ScenePoses::at and GpuScene::update.
   [[nodiscard]] View move_to(const RunView& view);
 
+  /// The first method over the scene with other effects.
+  /// gpu_scene: of those effects; must outlive the method.
+  [[nodiscard]] StagedMethod stage_with(const EffectSet& effects, GpuScene& gpu_scene) const;
+
   /// Another method over the same scene.
   [[nodiscard]] StagedMethod stage(const MethodSpec& method, const Progress& progress) const;
 
@@ -181,6 +184,7 @@ class Stage {
  private:
   [[nodiscard]] std::vector<StagedFrames> wanted_methods(bool has_unit);
   [[nodiscard]] StagedMethod staged(const StagedFrames& method, const Progress& progress) const;
+  [[nodiscard]] WorkFolders work_folders() const { return {settings_.bakes, settings_.cache}; }
   void pose_at(double seconds);
 
   std::shared_ptr<PreparedScene> prepared_;

@@ -52,7 +52,7 @@ const std::vector<Case> wrong_shaders{
     {.name = "ShaderInWgsl",
      .arguments = {"shader", "lean", "--language", "wgsl"},
      .exit_code = 2,
-     .errors_have = {"--language", "`wgsl`"}},
+     .errors_have = {"--language", "`wgsl`", "known: glsl, essl, hlsl, msl, spirv"}},
     {.name = "BinaryShaderToTheTerminal",
      .arguments = {"shader", "lean", "--language", "spirv"},
      .exit_code = 2,

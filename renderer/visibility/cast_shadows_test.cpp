@@ -47,6 +47,14 @@ TEST(CastShadows, BoxOverFloorCastsOne) {
   EXPECT_TRUE(casts(box_over_floor(), PointLight{.position = {0, 0, 3}, .intensity = glm::vec3(1), .range = {}}));
 }
 
+// A sphere shines to all sides, whatever its direction; a disk that faces away shines on nothing.
+TEST(CastShadows, SpheresShineToAllSides) {
+  AreaLight light{.shape = AreaShape::sphere, .position = {0, 0, 3}, .direction = {0, 0, 1}};
+  EXPECT_TRUE(casts(box_over_floor(), light));
+  light.shape = AreaShape::disk;
+  EXPECT_FALSE(casts(box_over_floor(), light));
+}
+
 // From below light comes to the back of the floor, which is not drawn from there.
 TEST(CastShadows, WhatIsNotDrawnFromTheLightCastsNone) {
   const DirectionalLight from_below{.direction = {0, 0, 1}, .illuminance = glm::vec3(1)};

@@ -219,7 +219,7 @@ std::string run_fingerprint(std::string_view maker, const RunSettings& settings,
   }
   if (!settings.bakes.empty()) hash.add(hash_given_bakes(settings.bakes));
   add(hash, settings.gpus);
-  add_view(hash, settings.view, settings.overrides.model.time.value_or(0.0), scene);
+  add_view(hash, settings.view, first_time(settings.overrides), scene);
   add(hash, settings.reference);
   if (settings.history.frames > 0) add(hash, settings.history);
   const auto& [repeats, processes, unit] = settings.timing;

@@ -102,21 +102,6 @@ StagedMethod::StagedMethod(const MethodSpec& spec, const Error& refusal)
       drawn_{.spec = spec},
       refusal_(refusal) {}
 
-std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
-                                                      const EffectSet& effects, const MethodSpec& spec,
-                                                      const WorkFolders& folders, const Progress& progress) {
-  BakedMethod made = make_bake(find_method(spec), spec);
-  const std::optional<DiskCache> files = cache_in(folders.cache);
-  const std::optional<BakeFolder> given = given_bake(folders.bakes, spec);
-  BakeSource source{.cache = files ? &*files : nullptr};
-  if (given) {
-    made.given_by = given->folder().string();
-    source.given = [&, wanted = made](std::size_t material) { return given->read(wanted, scene, material, effects); };
-  }
-  return std::make_shared<const PreparedMethod>(
-      bake_and_upload(gpu_scene, scene, effects, std::move(made), source, progress));
-}
-
 StagedMethod::StagedMethod(const gl::ContextInfo& context, GpuScene& gpu_scene, const Scene& scene,
                            std::shared_ptr<const PreparedMethod> prepared, const StagedFrames& wanted,
                            const glm::ivec2& size, int tile)
@@ -189,9 +174,23 @@ std::vector<StagedFrames> Stage::wanted_methods(bool has_unit) {
   return wanted;
 }
 
+std::shared_ptr<const PreparedMethod> Stage::prepared(const MethodSpec& spec, const EffectSet& effects,
+                                                      const GpuScene& gpu_scene, const Progress& progress) const {
+  BakedMethod made = make_bake(find_method(spec), spec);
+  const std::optional<DiskCache> files = cache_in(settings_.cache);
+  const std::optional<BakeFolder> given = given_bake(settings_.bakes, spec);
+  BakeSource source{.cache = files ? &*files : nullptr};
+  if (given) {
+    made.given_by = given->folder().string();
+    source.given = [&, wanted = made](std::size_t material) { return given->read(wanted, scene(), material, effects); };
+  }
+  return std::make_shared<const PreparedMethod>(
+      bake_and_upload(gpu_scene, scene(), effects, std::move(made), source, progress));
+}
+
 StagedMethod Stage::staged(const StagedFrames& method, const Progress& progress) const {
   std::shared_ptr<const PreparedMethod>& known = prepared_->methods[text_of_maps(method.spec)];
-  if (!known) known = prepared_method(*prepared_->gpu, scene(), effects(), method.spec, work_folders(), progress);
+  if (!known) known = prepared(method.spec, effects(), *prepared_->gpu, progress);
   return {context().info(), *prepared_->gpu, scene(), known, method, size_, settings_.backend.tile};
 }
 
@@ -241,13 +240,9 @@ View Stage::move_to(const RunView& view) {
 
 StagedMethod Stage::stage_with(const EffectSet& effects, GpuScene& gpu_scene) const {
   const StagedFrames wanted{.spec = methods_.front().spec(), .filter = methods_.front().filter()};
-  return {context().info(),
-          gpu_scene,
-          scene(),
-          prepared_method(gpu_scene, scene(), effects, wanted.spec, work_folders(), no_progress),
-          wanted,
-          size_,
-          settings_.backend.tile};
+  return {
+      context().info(),      gpu_scene, scene(), prepared(wanted.spec, effects, gpu_scene, no_progress), wanted, size_,
+      settings_.backend.tile};
 }
 
 StagedMethod Stage::stage(const MethodSpec& method, const Progress& progress) const {

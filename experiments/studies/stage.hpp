@@ -43,12 +43,6 @@ struct StageOptions {
 [[nodiscard]] std::optional<Error> catch_failure(const gl::Context& context, const MethodSpec& method,
                                                  const std::function<void()>& action);
 
-/// The folders that slow work may be read from instead of being done.
-struct WorkFolders {
-  std::vector<std::filesystem::path> bakes{};    ///< of `footprint bake`
-  std::optional<std::filesystem::path> cache{};  ///< none: nothing is cached
-};
-
 /// The cache in a folder; none without one.
 [[nodiscard]] std::optional<DiskCache> cache_in(const std::optional<std::filesystem::path>& folder);
 
@@ -61,12 +55,6 @@ struct PreparedMethod {
   std::unique_ptr<BakedMethod> baked;
   std::unique_ptr<GpuMethod> gpu;
 };
-
-/// Bakes a method, unless one of the folders has its maps, and uploads it.
-[[nodiscard]] std::shared_ptr<const PreparedMethod> prepared_method(const GpuScene& gpu_scene, const Scene& scene,
-                                                                    const EffectSet& effects, const MethodSpec& spec,
-                                                                    const WorkFolders& folders,
-                                                                    const Progress& progress);
 
 /// Shared by stages over one scene: its context, its maps and meshes on the GPU, and the methods that were prepared
 /// for them. The first stage fills it.
@@ -184,7 +172,10 @@ class Stage {
  private:
   [[nodiscard]] std::vector<StagedFrames> wanted_methods(bool has_unit);
   [[nodiscard]] StagedMethod staged(const StagedFrames& method, const Progress& progress) const;
-  [[nodiscard]] WorkFolders work_folders() const { return {settings_.bakes, settings_.cache}; }
+  // Bakes a method, unless a folder or the cache of the settings has its maps, and uploads it.
+  [[nodiscard]] std::shared_ptr<const PreparedMethod> prepared(const MethodSpec& spec, const EffectSet& effects,
+                                                               const GpuScene& gpu_scene,
+                                                               const Progress& progress) const;
   void pose_at(double seconds);
 
   std::shared_ptr<PreparedScene> prepared_;

@@ -56,6 +56,9 @@ struct PlannedView {
 /// first_time: seconds of the model file's animation in the first view.
 [[nodiscard]] std::vector<PlannedView> plan_views(const ViewSettings& settings, double first_time, const Scene& scene);
 
+/// Seconds of the model file's animation in the first view of a run: 0 by default.
+[[nodiscard]] inline double first_time(const SceneOverrides& overrides) { return overrides.model.time.value_or(0.0); }
+
 /// The scene of a run at any time of its animation. Its files are read once.
 class ScenePoses {
  public:
@@ -63,8 +66,8 @@ class ScenePoses {
   ScenePoses(std::string scene, SceneLibrary library, SceneOverrides overrides)
       : scene_(std::move(scene)), library_(std::move(library)), overrides_(std::move(overrides)) {}
 
-  /// Seconds of the animation in the scene as it was asked for: 0 by default.
-  [[nodiscard]] double first_time() const { return overrides_.model.time.value_or(0.0); }
+  /// Seconds of the animation in the scene as it was asked for.
+  [[nodiscard]] double first_time() const { return footprint::first_time(overrides_); }
 
   /// The scene as it was asked for. Errors: as load_scene.
   [[nodiscard]] Scene first() const { return load_scene(scene_, library_, overrides_); }
